@@ -1,0 +1,46 @@
+#pragma once
+/// Draws a scene as the slow side does: G-buffer, deferred light, sky; into the pixels of a layer.
+
+#include <memory>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "core/result.h"
+#include "frame_link/rendered_frame.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+/// What one draw did.
+struct DrawCounters {
+    std::uint64_t objects_tested = 0;
+    std::uint64_t objects_drawn = 0;
+    std::uint64_t triangles_drawn = 0;
+    std::uint64_t draw_calls = 0;
+};
+
+/// Belongs to one GL context and its thread: made, used and destroyed with that context current.
+class SceneRenderer {
+public:
+    /// Uploads the scene. `scene` outlives the renderer. Shader or framebuffer trouble is an error.
+    [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(const scene::Scene& scene);
+    virtual ~SceneRenderer() = default;
+
+    /// One sample per pixel into CPU memory: colour (sRGB), depth, ids. `pixels` is resized to camera.size_px.
+    virtual void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) = 0;
+
+    /// The same into textures of the current context, with a fence, for a server whose context shares with this one.
+    [[nodiscard]] virtual TexturePixels draw_to_textures(const Camera& camera, double scene_time_s) = 0;
+
+    /// Truth: `samples_per_axis` squared samples per pixel, box-averaged in linear light. 1, 2 or 4.
+    virtual void draw_supersampled(const Camera& camera, double scene_time_s, int samples_per_axis,
+                                   ColourImage& colour) = 0;
+
+    /// Placements of the movers at a scene time.
+    virtual void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) = 0;
+
+    [[nodiscard]] virtual const DrawCounters& counters() const = 0;  ///< of the last draw
+};
+
+}  // namespace lw

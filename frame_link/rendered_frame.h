@@ -1,0 +1,87 @@
+#pragma once
+/// The contract between a renderer and the warp server: layers of colour, depth and object ids, each with the camera
+/// it was drawn with. The warp server knows nothing else of a scene.
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/camera.h"
+#include "core/clock.h"
+#include "core/image.h"
+#include "core/object_transform.h"
+#include "gl/fence.h"
+#include "gl/texture.h"
+
+namespace lw {
+
+/// Pixels in CPU memory, all of the layer's size. How frames travel on a software GL, and from renderers without GL.
+struct CpuPixels {
+    ColourImage colour;       ///< sRGB
+    DepthImage depth;         ///< reversed infinite depth, near_m / distance_m; 0 = background
+    ObjectIdImage object_id;  ///< 0 = static world and sky
+};
+
+/// Pixels in textures of a context that shares with the server's: SRGB8_ALPHA8, R32F and R16UI, row 0 on top.
+/// Readable once `rendered` has signalled; the server polls it and never waits for it.
+struct TexturePixels {
+    gl::Texture colour;
+    gl::Texture depth;
+    gl::Texture object_id;
+    gl::Fence rendered;
+};
+
+using FramePixels = std::variant<CpuPixels, TexturePixels>;
+
+/// What a warp method worked out about a layer once, before it was published. Methods derive their own from it.
+struct PreparedLayer {
+    PreparedLayer() = default;
+    PreparedLayer(const PreparedLayer&) = delete;
+    PreparedLayer& operator=(const PreparedLayer&) = delete;
+    virtual ~PreparedLayer() = default;
+};
+
+/// One image with everything needed to warp it. Immutable once published.
+struct Layer {
+    std::string name = "main";
+    Camera camera;              ///< the source camera; its size is the size of the pixels
+    TimePoint pose_sampled;     ///< stamp of the newest head sample that `camera` was predicted from
+    double scene_time_s = 0.0;  ///< time the movers were drawn at
+    FramePixels pixels;
+    std::vector<ObjectTransform> movers;  ///< every mover's placement as drawn, by ascending id
+
+    /// Programmer errors when the pixels live elsewhere.
+    [[nodiscard]] const CpuPixels& cpu() const { return std::get<CpuPixels>(pixels); }
+    [[nodiscard]] CpuPixels& cpu() { return std::get<CpuPixels>(pixels); }
+
+    /// What `method` (its label, with settings) prepared, or null.
+    [[nodiscard]] const PreparedLayer* prepared_for(std::string_view method) const {
+        for (const auto& [label, prepared_layer] : prepared) {
+            if (label == method) return prepared_layer.get();
+        }
+        return nullptr;
+    }
+    std::vector<std::pair<std::string, std::shared_ptr<const PreparedLayer>>> prepared;
+};
+
+/// The stages of a rendered frame's life that the client stamps (docs/conventions.md, "The life of a frame").
+struct RenderTimes {
+    TimePoint pose_sampled;
+    TimePoint render_begin;
+    TimePoint render_end;
+    TimePoint published;
+};
+
+/// What the client publishes. A layer that was not drawn again is carried over by its pointer, without a copy.
+struct RenderedFrame {
+    std::uint64_t index = 0;  ///< counts published frames from 1
+    std::vector<std::shared_ptr<const Layer>> layers;
+    RenderTimes times;
+};
+
+}  // namespace lw

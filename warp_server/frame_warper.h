@@ -1,0 +1,39 @@
+#pragma once
+/// One display frame: warp method, then fill, with the time each took. What the live server, replay and the command
+/// line all call.
+
+#include <memory>
+#include <vector>
+
+#include "core/clock.h"
+#include "core/result.h"
+#include "warp_server/fill.h"
+#include "warp_server/warp_method.h"
+
+namespace lw {
+
+class FrameWarper {
+public:
+    FrameWarper(std::unique_ptr<WarpMethod> method, std::unique_ptr<Fill> fill)
+        : method_{std::move(method)}, fill_{std::move(fill)} {}
+
+    /// From specifications, "points:size_px=2" and "nearest-background".
+    [[nodiscard]] static Result<FrameWarper> create(std::string_view method, std::string_view fill);
+
+    /// Runs prepare and stores the result in the layer (client's thread, before publishing).
+    void prepare(Layer& layer) const;
+
+    /// Warps and fills. `frame` has at least one layer. The result is valid until the next call. Server thread.
+    const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target);
+
+    [[nodiscard]] const WarpMethod& method() const { return *method_; }
+    /// Share of unreached pixels of the last frame, before fill. Computed on demand from its coverage.
+    [[nodiscard]] double hole_fraction() const { return lw::hole_fraction(display_frame_); }
+
+private:
+    std::unique_ptr<WarpMethod> method_;
+    std::unique_ptr<Fill> fill_;
+    DisplayFrame display_frame_;
+};
+
+}  // namespace lw

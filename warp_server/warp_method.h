@@ -1,0 +1,77 @@
+#pragma once
+/// The interface of every warp method. To add one: a file in warp_server/methods/ and a line in methods/registry.cpp.
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "core/camera.h"
+#include "core/image.h"
+#include "core/object_transform.h"
+#include "frame_link/rendered_frame.h"
+
+namespace lw {
+
+/// What became of a target pixel.
+enum class Coverage : std::uint8_t {
+    hole = 0,     ///< no source pixel reached it; colour and depth are unspecified until filled
+    reached = 1,  ///< shows a source pixel (background counts as reached)
+    filled = 2,   ///< was a hole; the fill invented it
+};
+
+/// The picture of one display refresh. All images have the target's size.
+struct DisplayFrame {
+    ColourImage colour;
+    DepthImage depth;  ///< reversed infinite depth of the target camera
+    Image<Coverage> coverage;
+
+    void resize(glm::ivec2 size_px) {
+        colour.resize(size_px);
+        depth.resize(size_px);
+        coverage.resize(size_px);
+    }
+};
+
+/// Where and when the picture is shown.
+struct WarpTarget {
+    Camera camera;                            ///< predicted to photon time
+    std::span<const ObjectTransform> movers;  ///< placements at photon time; a missing one holds its source placement
+};
+
+/// Pixels that could not be used, by kind; they are skipped, never fatal.
+struct WarpCounters {
+    std::uint64_t bad_depth = 0;       ///< NaN, infinite or outside [0, 1]
+    std::uint64_t unknown_object = 0;  ///< an id without a placement in the layer
+};
+
+/// A warp method with its settings and scratch memory. One thread at a time calls warp(); prepare() may run on another
+/// thread at the same time. No allocation in warp() once sizes are seen.
+class WarpMethod {
+public:
+    virtual ~WarpMethod() = default;
+
+    /// As given, with settings: "points:size_px=2".
+    [[nodiscard]] virtual std::string_view label() const = 0;
+
+    /// Work done once per layer, on the client's thread before the layer is published; null when there is none.
+    /// Thread safe.
+    [[nodiscard]] virtual std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const {
+        (void)layer;
+        return nullptr;
+    }
+
+    /// Moves every pixel of `layer` to where it belongs in `target`. Overwrites all of `out`, which is resized to the
+    /// target. Nearest surface wins; samples nearer than the target's near plane are skipped. A method that needs
+    /// prepare() runs it itself when the layer was not prepared for it.
+    virtual void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) = 0;
+
+    /// Of the last warp().
+    [[nodiscard]] const WarpCounters& counters() const { return counters_; }
+
+protected:
+    WarpCounters counters_;
+};
+
+}  // namespace lw

@@ -114,10 +114,11 @@ struct Node {
     glm::dvec3 translation{0.0};
     glm::dquat rotation{1.0, 0.0, 0.0, 0.0};
     glm::dvec3 scale{1.0};
-    std::optional<glm::dmat4> matrix;  ///< replaces translation, rotation and scale
+    std::optional<glm::dmat4> matrix;  ///< replaces translation, rotation and scale, and the channels of the node
 };
 
-/// A mesh placed by a node.
+/// A mesh placed by a node. Where world_from_object mirrors (determinant of its upper 3x3 below zero, which a negative
+/// scale makes), counter-clockwise triangles turn clockwise: who draws flips its front faces then.
 struct Instance {
     int mesh = 0;
     int node = 0;
@@ -125,7 +126,8 @@ struct Instance {
     ObjectId mover = 0;                ///< set by finish(): 0 static, else the mover that carries it
 };
 
-/// A mover: a node that is animated, itself or through an ancestor, and carries instances.
+/// A mover: an animated node that is the nearest animated one (itself or an ancestor) of at least one instance's node.
+/// Its placement is world_from_node of that node.
 struct Mover {
     ObjectId id = 0;
     int node = 0;
@@ -188,7 +190,9 @@ public:
 private:
     const Scene* scene_;
     std::vector<glm::dmat4> world_from_node_;
-    std::vector<bool> changes_;  ///< per node: it or an ancestor is animated
+    std::vector<bool> changes_;                   ///< per node: it or an ancestor is animated
+    std::vector<std::size_t> first_channel_;      ///< per node: range in channels_of_nodes_; one more entry than nodes
+    std::vector<std::size_t> channels_of_nodes_;  ///< indices into Scene::channels, grouped by node
     bool evaluated_ = false;
 };
 

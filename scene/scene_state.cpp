@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include "core/check.h"
+#include "scene/animation.h"
+#include "scene/scene.h"
+
+namespace lw::scene {
+namespace {
+
+struct LocalPlacement {
+    glm::dvec3 translation;
+    glm::dquat rotation;
+    glm::dvec3 scale;
+};
+
+glm::dmat4 matrix_of(const LocalPlacement& local) {
+    glm::dmat4 matrix = glm::mat4_cast(local.rotation);
+    matrix[0] *= local.scale.x;
+    matrix[1] *= local.scale.y;
+    matrix[2] *= local.scale.z;
+    matrix[3] = glm::dvec4{local.translation, 1.0};
+    return matrix;
+}
+
+void apply(const AnimationChannel& channel, double time_s, LocalPlacement& local) {
+    const glm::dvec4 value = channel_value(channel, time_s);
+    switch (channel.property) {
+        case AnimatedProperty::translation:
+            local.translation = glm::dvec3{value};
+            break;
+        case AnimatedProperty::rotation:
+            local.rotation = glm::dquat{value.w, value.x, value.y, value.z};
+            break;
+        case AnimatedProperty::scale:
+            local.scale = glm::dvec3{value};
+            break;
+    }
+}
+
+}  // namespace
+
+SceneState::SceneState(const Scene& scene)
+    : scene_{&scene}, world_from_node_(scene.nodes.size(), glm::dmat4{1.0}), changes_(scene.nodes.size(), false) {
+    const std::size_t node_count = scene.nodes.size();
+    first_channel_.assign(node_count + 1, 0);
+    for (const AnimationChannel& channel : scene.channels) {
+        LW_CHECK(channel.node >= 0 && static_cast<std::size_t>(channel.node) < node_count, "channel of no node");
+        ++first_channel_[static_cast<std::size_t>(channel.node) + 1];
+    }
+    for (std::size_t node = 0; node < node_count; ++node) first_channel_[node + 1] += first_channel_[node];
+    channels_of_nodes_.resize(scene.channels.size());
+    std::vector<std::size_t> next = first_channel_;
+    for (std::size_t i = 0; i < scene.channels.size(); ++i) {
+        channels_of_nodes_[next[static_cast<std::size_t>(scene.channels[i].node)]++] = i;
+    }
+    for (std::size_t node = 0; node < node_count; ++node) {
+        const int parent = scene.nodes[node].parent;
+        LW_CHECK(parent < static_cast<int>(node), "a parent must come before its children");
+        const bool animated = first_channel_[node] != first_channel_[node + 1];
+        changes_[node] = animated || (parent != kNone && changes_[static_cast<std::size_t>(parent)]);
+    }
+}
+
+void SceneState::set_time(double time_s) {
+    LW_CHECK(std::isfinite(time_s), "scene time must be finite");
+    for (std::size_t i = 0; i < scene_->nodes.size(); ++i) {
+        if (evaluated_ && !changes_[i]) continue;
+        const Node& node = scene_->nodes[i];
+        LocalPlacement local{node.translation, node.rotation, node.scale};
+        for (std::size_t k = first_channel_[i]; k < first_channel_[i + 1]; ++k) {
+            apply(scene_->channels[channels_of_nodes_[k]], time_s, local);
+        }
+        const glm::dmat4 parent_from_node = node.matrix ? *node.matrix : matrix_of(local);
+        world_from_node_[i] = node.parent == kNone ? parent_from_node : world_from_node(node.parent) * parent_from_node;
+    }
+    evaluated_ = true;
+}
+
+void SceneState::mover_placements(std::vector<ObjectTransform>& transforms) const {
+    transforms.clear();
+    transforms.reserve(scene_->movers.size());
+    for (const Mover& mover : scene_->movers) transforms.push_back({mover.id, world_from_node(mover.node)});
+}
+
+}  // namespace lw::scene

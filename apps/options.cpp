@@ -1,0 +1,421 @@
+#include "apps/options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <array>
+#include <glm/gtc/constants.hpp>
+#include <sstream>
+
+#include "apps/option_values.h"
+#include "frame_link/prediction.h"
+#include "frame_link/trace.h"
+#include "warp_server/fill.h"
+#include "warp_server/methods/registry.h"
+
+namespace lw {
+
+namespace {
+
+using namespace option_values;
+
+/// Declares options of one subcommand. Values are parsed here and not by the library: one wording for all errors.
+class Declarer {
+public:
+    Declarer(CLI::App& app, Options& options) : app_{app}, options_{options} {}
+
+    template <class Parse>
+    CLI::Option* value(const std::string& names, const std::string& type, const std::string& help, Parse parse) {
+        return app_.add_option_function<std::string>(names, parse, help)->type_name(type)->take_last();
+    }
+    template <class Target>
+    void number(const std::string& name, const std::string& type, const Range& range, Target& target,
+                const std::string& help) {
+        value(name, type, help, [name, range, &target](const std::string& text) {
+            if constexpr (std::is_same_v<Target, std::optional<double>>) {
+                target = number_in(name, text, range);
+            } else {
+                target = static_cast<Target>(number_in(name, text, range));
+            }
+        });
+    }
+    template <class Add>
+    void repeated(const std::string& name, const std::string& type, const std::string& help, Add add) {
+        app_.add_option_function<std::vector<std::string>>(
+                name,
+                [add](const std::vector<std::string>& texts) {
+                    for (const std::string& text : texts) add(text);
+                },
+                help)
+            ->type_name(type)
+            ->allow_extra_args(false);
+    }
+    CLI::Option* path(const std::string& name, const std::string& type, std::filesystem::path& target,
+                      const std::string& help) {
+        return value(name, type, help, [name, &target](const std::string& text) { target = parsed_path(name, text); });
+    }
+    CLI::App& app() { return app_; }
+    Options& options() { return options_; }
+
+private:
+    CLI::App& app_;
+    Options& options_;
+};
+
+void declare_scene(Declarer& declare, bool required) {
+    Options& options = declare.options();
+    CLI::Option* scene = declare.value("SCENE", "", "built-in scene, or a .gltf or .glb file", [&](const auto& text) {
+        if (text.empty()) usage_error("an empty scene name", "SCENE", "name a built-in scene or a file");
+        options.scene = text;
+    });
+    if (required) scene->required();
+}
+
+void declare_parameters(Declarer& declare) {
+    Options& options = declare.options();
+    declare.repeated("--param", "KEY=NUMBER[,...]", "parameter of a built-in scene (repeatable)",
+                     [&options](const std::string& text) { add_parameters(text, options.parameters); });
+    declare.value("--seed", "N", "seed of whatever is random", [&options](const std::string& text) {
+        options.seed = static_cast<std::uint64_t>(number_in("--seed", text, {0, 4294967295.0, true}));
+    });
+}
+
+void declare_camera(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--size", "WxH", "size of the picture (1024x1024)", [&options](const std::string& text) {
+        options.size_px = parsed_size(text);
+        options.size_given = true;
+    });
+    declare.value("--fov", "DEG", "vertical field of view (90)", [&options](const std::string& text) {
+        options.fov_deg = number_in("--fov", text, {1, 170});
+        options.fov_given = true;
+    });
+    declare.value("--near", "M", "distance of the near plane (0.05)", [&options](const std::string& text) {
+        options.near_m = number_in("--near", text, {1e-4, 100});
+        options.near_given = true;
+    });
+}
+
+void declare_method(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--method", "METHOD", "warp method, NAME or NAME:KEY=NUMBER,...; see below",
+                  [&options](const std::string& text) {
+                      check_method("--method", text, false);
+                      options.method = text;
+                  });
+    declare.value("--fill", "FILL", "what is shown in holes (nearest-background)", [&options](const std::string& text) {
+        check_name("fill", "--fill", text, fill_names());
+        options.fill = text;
+    });
+}
+
+void declare_timing(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--source-pose", "predicted|sampled", "head pose the client draws for (predicted)",
+                  [&options](const std::string& text) {
+                      check_name("source pose", "--source-pose", text, {"predicted", "sampled"});
+                      options.source_pose = text == "sampled" ? SourcePose::sampled : SourcePose::predicted;
+                  });
+    declare.number("--app-hz", "HZ", {0.1, 1000}, options.app_hz,
+                   "rate of the client (10 in replay; live as fast as it can)");
+    declare.number("--display-hz", "HZ", {1, 1000}, options.display_hz, "rate of the display (90)");
+    declare.value("--predict", "PREDICTOR", "head pose prediction of the server (oracle in replay)",
+                  [&options](const std::string& text) {
+                      check_name("predictor", "--predict", text, predictor_names());
+                      options.predict = text;
+                  });
+    declare.number("--tracker-hz", "HZ", {1, 10000}, options.tracker_hz, "rate of the head tracker (1000)");
+    declare.number("--lead", "MS", {0, 1000}, options.lead_ms, "latch this long before scan-out (5)");
+    declare.number("--app-latency", "MS", {0, 10000}, options.app_latency_ms,
+                   "replay: from sampling to publishing (one client period)");
+    declare.number("--seconds", "S", {1e-3, 3600}, options.seconds, "length of the run (10)");
+}
+
+void declare_trace(Declarer& declare, bool required) {
+    Options& options = declare.options();
+    CLI::Option* trace =
+        declare.value("--trace", "TRACE", "head trace, built-in or a recording", [&options](const std::string& text) {
+            if (text.empty()) usage_error("an empty trace name", "--trace", "name a built-in trace or a file");
+            options.trace = text;
+        });
+    if (required) trace->required();
+    declare.number("--trace-start", "S", {0, 1e6}, options.trace_start_s, "skip into the trace (0)");
+}
+
+void declare_baselines(Declarer& declare) {
+    Options& options = declare.options();
+    declare.repeated("--baseline", "METHOD", "method beside it, also fresh or fresh-same (repeatable)",
+                     [&options](const std::string& text) {
+                         check_method("--baseline", text, true);
+                         auto& known = options.baselines;
+                         if (std::find(known.begin(), known.end(), text) == known.end()) known.push_back(text);
+                     });
+}
+
+void declare_truth(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--truth-samples", "N", "NxN samples per pixel of the truth: 1, 2 or 4 (2)",
+                  [&options](const std::string& text) {
+                      check_name("number of samples", "--truth-samples", text, {"1", "2", "4"});
+                      options.truth_samples = static_cast<int>(*parsed_number(text));
+                  });
+}
+
+void declare_reports(Declarer& declare) {
+    Options& options = declare.options();
+    declare.path("--out", "DIR", options.out, "folder for reports and images, made if missing");
+    declare.path("--report", "FILE.json", options.report, "the JSON report");
+    declare.app().add_flag("--save-frames", options.save_frames, "keep every image in the --out folder");
+}
+
+void declare_common(Declarer& declare) {
+    Options& options = declare.options();
+    declare.number("--threads", "N", {1, 256, true}, options.threads,
+                   "threads for the error figures (all cores); a warp uses one");
+    declare.app().add_flag("--quiet", options.quiet, "no progress bar, no summary");
+}
+
+void declare_live(Declarer declare) {
+    declare_scene(declare, false);
+    declare_trace(declare, false);
+    declare_camera(declare);
+    declare_method(declare);
+    declare_timing(declare);
+    declare_truth(declare);
+    declare_reports(declare);
+    declare_parameters(declare);
+    declare_common(declare);
+}
+
+void declare_replay(Declarer declare) {
+    declare_scene(declare, false);
+    declare_trace(declare, true);
+    declare_camera(declare);
+    declare_method(declare);
+    declare_baselines(declare);
+    declare_timing(declare);
+    declare_truth(declare);
+    declare_reports(declare);
+    declare_parameters(declare);
+    declare_common(declare);
+}
+
+void declare_pose(Declarer& declare, const std::string& help) {
+    Options& options = declare.options();
+    declare.value("--pose", "px,py,pz,qx,qy,qz,qw", help,
+                  [&options](const std::string& text) { options.pose = parsed_pose(text); });
+}
+
+void declare_render(Declarer declare) {
+    Options& options = declare.options();
+    declare_scene(declare, true);
+    declare_pose(declare, "world_from_eye (the scene's start pose)");
+    declare.path("-o", "FILE.png", options.output, "the truth image")->required();
+    declare.number("--time", "S", {-1e6, 1e6}, options.scene_time_s, "scene time (0)");
+    declare.path("--frame", "DIR", options.frame, "folder for the frame that the client would publish here");
+    declare_camera(declare);
+    declare_truth(declare);
+    declare_parameters(declare);
+    declare_common(declare);
+}
+
+void declare_warp(Declarer declare) {
+    Options& options = declare.options();
+    declare.path("FRAMEDIR", "", options.input, "frame folder, as 'render --frame' writes it")->required();
+    declare_pose(declare, "world_from_eye (the frame's own pose)");
+    declare.path("-o", "FILE.png", options.output, "the warped image")->required();
+    declare.path("--objects", "FILE.json", options.objects, "placements of the movers (the frame's own)");
+    declare_camera(declare);
+    declare_method(declare);
+    declare_common(declare);
+}
+
+void declare_compare(Declarer declare) {
+    Options& options = declare.options();
+    declare.path("A.png", "", options.input, "the reference")->required();
+    declare.path("B.png", "", options.other_input, "the image to judge")->required();
+    declare.number("--ppd", "N", {1e-3, 1e5}, options.pixels_per_degree, "pixels per degree, for FLIP (67)");
+    declare_common(declare);
+}
+
+void declare_generate(Declarer declare) {
+    Options& options = declare.options();
+    declare
+        .value("NAME", "", "built-in scene",
+               [&options](const std::string& text) {
+                   std::vector<std::string_view> known;
+                   for (const scene::BuiltInScene& entry : scene::built_in_scenes()) known.push_back(entry.name);
+                   check_name("built-in scene", "generate", text, known);
+                   options.generated_name = text;
+               })
+        ->required();
+    declare.path("-o", "FILE.glb", options.output, "the file to write")->required();
+    declare_parameters(declare);
+    declare_common(declare);
+}
+
+void declare_info(Declarer declare) {
+    declare.path("FILE", "", declare.options().input, "scene file, frame folder or trace")->required();
+    declare_common(declare);
+}
+
+struct SubcommandEntry {
+    Subcommand subcommand;
+    const char* name;
+    const char* summary;
+    void (*declare)(Declarer declare);
+};
+constexpr std::array kSubcommands = {
+    SubcommandEntry{Subcommand::demo, "demo", "Live: a slow client and a fast warp server, in a window if there is one",
+                    declare_live},
+    SubcommandEntry{Subcommand::measure, "measure", "Live with the latency harness, JSON report", declare_live},
+    SubcommandEntry{Subcommand::replay, "replay", "A head trace on a virtual clock, every frame against the truth",
+                    declare_replay},
+    SubcommandEntry{Subcommand::render, "render", "The truth image at a pose, and the client's frame", declare_render},
+    SubcommandEntry{Subcommand::warp, "warp", "A frame folder warped to a pose", declare_warp},
+    SubcommandEntry{Subcommand::compare, "compare", "PSNR, SSIM and FLIP of two images, as JSON", declare_compare},
+    SubcommandEntry{Subcommand::generate, "generate", "A built-in scene as a .glb file", declare_generate},
+    SubcommandEntry{Subcommand::info, "info", "What is in a scene, a frame folder or a trace", declare_info},
+};
+
+std::string subcommand_list() {
+    std::string list;
+    for (const SubcommandEntry& entry : kSubcommands) {
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", entry.name);
+    }
+    return list;
+}
+
+/// What the registries hold, so that the help can never be out of date.
+std::string footer() {
+    std::string text = "warp methods:\n";
+    for (const MethodEntry& entry : warp_methods()) {
+        text += fmt::format("  {:<12} {}", entry.name, entry.summary);
+        if (!entry.settings.empty()) text += fmt::format(" (settings: {})", entry.settings);
+        text += "\n";
+    }
+    text += fmt::format("fills: {}\npredictors: {}\ntraces: {}, or a file\nscenes: ", joined(fill_names()),
+                        joined(predictor_names()), joined(built_in_trace_names()));
+    std::vector<std::string> scenes;
+    for (const scene::BuiltInScene& entry : scene::built_in_scenes()) {
+        scenes.push_back(fmt::format("{} (--param {})", entry.name, entry.parameters));
+    }
+    return text + fmt::format("{}, or a .gltf or .glb file\n", fmt::join(scenes, ", "));
+}
+
+/// The best method there is: the first of these that was built.
+std::string default_method() {
+    for (const char* name : {"surface", "splat", "reference"}) {
+        if (find_warp_method(name) != nullptr) return name;
+    }
+    return std::string{warp_methods().front().name};
+}
+
+/// --seed is a scene parameter wherever the scene has one; --param seed= is the more exact word and wins.
+void seed_the_scene(Options& options) {
+    if (!options.seed) return;
+    const std::string& name = options.subcommand == Subcommand::generate ? options.generated_name : options.scene;
+    for (const scene::BuiltInScene& entry : scene::built_in_scenes()) {
+        if (entry.name == name && entry.parameters.find("seed") != std::string_view::npos) {
+            options.parameters.try_emplace("seed", static_cast<double>(*options.seed));
+        }
+    }
+}
+
+/// The library's own errors: options it does not know, missing values, missing arguments.
+Error worded(const CLI::ParseError& error, const std::string& help) {
+    const std::string text = error.what();
+    const std::string mend = fmt::format("see '{} --help'", help);
+    if (dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr) {
+        const std::size_t colon = text.find(": ");
+        const std::string names = colon == std::string::npos ? text : text.substr(colon + 2);
+        return {names.rfind('-', 0) == 0 ? "unknown option" : "unexpected argument", names, mend};
+    }
+    if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr) {
+        const std::size_t end = text.rfind(" is required");
+        return {"missing", end == std::string::npos ? text : text.substr(0, end), mend};
+    }
+    const std::size_t colon = text.find(": ");
+    if (colon == std::string::npos) return {"wrong usage", text, mend};
+    return {text.substr(colon + 2), text.substr(0, colon), mend};
+}
+
+Result<CommandLine> parse(const std::vector<std::string>& arguments) {
+    CommandLine command_line;
+    Options& options = command_line.options;
+    CLI::App app{"Latewarp shows a slow renderer at full display rate.", "latewarp"};
+    app.set_version_flag("--version", "latewarp " LW_VERSION);
+    app.footer(footer);
+    std::string help_name = "latewarp";
+    for (const SubcommandEntry& entry : kSubcommands) {
+        CLI::App* sub = app.add_subcommand(entry.name, entry.summary);
+        sub->footer(footer);
+        entry.declare(Declarer{*sub, options});
+        if (!arguments.empty() && arguments.front() == entry.name) {
+            options.subcommand = entry.subcommand;
+            help_name = fmt::format("latewarp {}", entry.name);
+        }
+    }
+    app.require_subcommand(1);
+    if (arguments.empty()) return Error{"missing subcommand", "latewarp", "one of " + subcommand_list()};
+    if (help_name == "latewarp" && arguments.front().rfind('-', 0) != 0) {
+        return Error{"unknown subcommand", arguments.front(), "one of " + subcommand_list()};
+    }
+    try {
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));
+    } catch (const UsageError& error) {
+        return error.error;
+    } catch (const CLI::Success& help_or_version) {
+        std::ostringstream text;
+        (void)app.exit(help_or_version, text, text);
+        command_line.text = text.str();
+        return command_line;
+    } catch (const CLI::ParseError& error) {
+        return worded(error, help_name);
+    }
+    return command_line;
+}
+
+/// Limits that concern two options at once.
+Status check_together(const Options& options) {
+    const bool draws = options.subcommand == Subcommand::replay || options.subcommand == Subcommand::render;
+    const int longest_px = std::max(options.size_px.x, options.size_px.y) * options.truth_samples;
+    if (draws && longest_px > 2 * kMaxSidePx) {
+        return Error{
+            "too many samples for this size",
+            fmt::format("--size {}x{} --truth-samples {}", options.size_px.x, options.size_px.y, options.truth_samples),
+            fmt::format("keep the longer side times the samples below {}", 2 * kMaxSidePx)};
+    }
+    if (options.save_frames && options.out.empty() && options.subcommand == Subcommand::replay) {
+        return Error{"no folder for the images", "--save-frames", "add --out DIR"};
+    }
+    return Done{};
+}
+
+}  // namespace
+
+Camera Options::camera() const {
+    const double aspect = static_cast<double>(size_px.x) / size_px.y;
+    return {{}, FovTangents::symmetric(fov_deg * glm::pi<double>() / 180.0, aspect), near_m, size_px};
+}
+
+Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments) {
+    Result<CommandLine> command_line = parse(arguments);
+    if (!command_line || command_line->text) return command_line;
+    Options& options = command_line->options;
+    if (options.method.empty()) options.method = default_method();
+    seed_the_scene(options);
+    const Status together = check_together(options);
+    if (!together) return together.error();
+    return command_line;
+}
+
+std::string_view name_of(Subcommand subcommand) {
+    for (const SubcommandEntry& entry : kSubcommands) {
+        if (entry.subcommand == subcommand) return entry.name;
+    }
+    return "latewarp";
+}
+
+bool is_fresh_baseline(std::string_view label) { return label == "fresh" || label == "fresh-same"; }
+
+}  // namespace lw

@@ -7,8 +7,9 @@ namespace {
 
 bool is_finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-// Rotation vector (axis times angle) of a unit quaternion, along the shorter arc. atan2 keeps tiny angles exact where
-// acos(w) loses them below 1e-8 rad.
+}  // namespace
+
+// atan2 keeps tiny angles exact where acos(w) loses them below 1e-8 rad.
 glm::dvec3 rotation_vector(glm::dquat q) {
     if (q.w < 0.0) q = -q;
     const glm::dvec3 v{q.x, q.y, q.z};
@@ -23,8 +24,6 @@ glm::dquat from_rotation_vector(const glm::dvec3& rotation) {
     const glm::dvec3 v = rotation * (std::sin(0.5 * angle_rad) / angle_rad);
     return {std::cos(0.5 * angle_rad), v.x, v.y, v.z};
 }
-
-}  // namespace
 
 std::optional<Pose> sanitised(const Pose& pose) {
     const glm::dquat& q = pose.orientation;

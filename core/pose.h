@@ -31,6 +31,13 @@ struct Pose {
 /// extrapolates at constant linear and angular velocity. Pure, any thread.
 [[nodiscard]] Pose interpolate(const Pose& a, const Pose& b, double t);
 
+/// Rotation vector (axis times angle, radians, length at most pi) of a unit quaternion, along the shorter arc. Tiny
+/// angles keep their digits. Pure, any thread.
+[[nodiscard]] glm::dvec3 rotation_vector(glm::dquat q);
+
+/// The unit quaternion that turns about `rotation` by its length, radians. Pure, any thread.
+[[nodiscard]] glm::dquat from_rotation_vector(const glm::dvec3& rotation);
+
 /// Angle of the rotation that leads from a to b, in [0, pi]. Accurate for tiny angles too. Pure, any thread.
 [[nodiscard]] double angle_between_rad(const glm::dquat& a, const glm::dquat& b);
 

@@ -3,6 +3,7 @@
 /// line all call.
 
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "core/clock.h"
@@ -34,6 +35,7 @@ private:
     std::unique_ptr<WarpMethod> method_;
     std::unique_ptr<Fill> fill_;
     DisplayFrame display_frame_;
+    DisplayFrame layer_frame_;  // scratch: second and further layers before they are merged
 };
 
 }  // namespace lw

@@ -1,0 +1,71 @@
+#include "warp_server/methods/object_matrices.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/check.h"
+
+namespace lw {
+namespace {
+
+// Below what float can hold of a pixel coordinate (1024 px: 6e-5) and above what composing in double leaves (1e-12).
+constexpr double kStillPx = 1e-6;
+
+bool is_identity(const glm::dmat4& m, glm::ivec2 source_size_px) {
+    const glm::dvec4 reach{source_size_px.x, source_size_px.y, 1.0, 1.0};  // largest x_px, y_px, 1, depth
+    const glm::dmat4 identity = [] {  // (x, y, 1, z) to w * (x, y, z, 1): columns 2 and 3 swap rows 2 and 3
+        glm::dmat4 swapped{1.0};
+        swapped[2] = glm::dvec4{0.0, 0.0, 0.0, 1.0};
+        swapped[3] = glm::dvec4{0.0, 0.0, 1.0, 0.0};
+        return swapped;
+    }();
+    const double largest_px = std::max({reach.x, reach.y, 1.0});
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            const double moved = std::abs(m[column][row] - identity[column][row]) * reach[column];
+            // An error of w moves a pixel by its distance from the origin.
+            const double moved_px = row == 3 ? moved * largest_px : moved;
+            if (!(moved_px < kStillPx)) return false;
+        }
+    }
+    return true;
+}
+
+PixelMatrix::Column rounded(const glm::dvec4& column) {
+    return {static_cast<float>(column.x), static_cast<float>(column.y), static_cast<float>(column.w)};
+}
+
+}  // namespace
+
+PixelMatrix pixel_matrix_of(const Transform<TargetPx, SourcePx>& target_px_from_source_px, glm::ivec2 source_size_px) {
+    const glm::dmat4& m = target_px_from_source_px.matrix;
+    if (is_identity(m, source_size_px)) {
+        return {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 0.0F}, 1.0F, true, true};
+    }
+    return {rounded(m[0]), rounded(m[1]), rounded(m[2]), rounded(m[3]), static_cast<float>(m[3].z), true, false};
+}
+
+void ObjectMatrices::build(const Layer& layer, const WarpTarget& target) {
+    table_.build(layer.camera, target.camera, layer.movers, target.movers);
+    matrices_.assign(table_.size(), PixelMatrix{});
+    all_identity_ = layer.camera.size_px == target.camera.size_px;
+    for (std::size_t id = 0; id < table_.size(); ++id) {
+        const Transform<TargetPx, SourcePx>* exact = table_.find(static_cast<ObjectId>(id));
+        if (exact == nullptr) continue;
+        matrices_[id] = pixel_matrix_of(*exact, layer.camera.size_px);
+        all_identity_ = all_identity_ && matrices_[id].identity;
+    }
+}
+
+const CpuPixels& checked_cpu_pixels(const Layer& layer) {
+    const auto* pixels = std::get_if<CpuPixels>(&layer.pixels);
+    LW_CHECK(pixels != nullptr, "a CPU warp method needs a layer with CPU pixels: " + layer.name);
+    const glm::ivec2 size_px = layer.camera.size_px;
+    LW_CHECK(size_px.x > 0 && size_px.y > 0, "layer without pixels: " + layer.name);
+    const bool sizes_agree = pixels->colour.size_px() == size_px && pixels->depth.size_px() == size_px &&
+                             pixels->object_id.size_px() == size_px;
+    LW_CHECK(sizes_agree, "images and camera of a layer differ in size: " + layer.name);
+    return *pixels;
+}
+
+}  // namespace lw

@@ -1,0 +1,33 @@
+/// The newest frame unwarped: what a user sees without a warp server. Only a difference of field of view or size is
+/// undone, so that a guard band does not shrink the picture.
+
+#include "warp_server/methods/factories.h"
+#include "warp_server/methods/homography_resample.h"
+
+namespace lw {
+namespace {
+
+class StaleMethod final : public WarpMethod {
+public:
+    explicit StaleMethod(std::string label) : label_{std::move(label)} {}
+
+    [[nodiscard]] std::string_view label() const override { return label_; }
+
+    void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
+        counters_ = {};
+        Camera unturned = target.camera;
+        unturned.world_from_eye = layer.camera.world_from_eye;
+        resample_by_rotation(layer, unturned, out, counters_);
+    }
+
+private:
+    std::string label_;
+};
+
+}  // namespace
+
+MadeMethod make_stale_method(std::string label, const MethodSettings& /*settings*/) {
+    return std::unique_ptr<WarpMethod>{std::make_unique<StaleMethod>(std::move(label))};
+}
+
+}  // namespace lw

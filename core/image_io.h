@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "core/image.h"
 #include "core/result.h"
@@ -13,6 +15,8 @@ namespace lw {
 
 /// Largest accepted side of an image from a file, pixels. Larger claims are refused before anything is allocated.
 inline constexpr int kMaxImageSidePx = 16384;
+/// Largest accepted number of pixels: decoding takes up to 8 bytes for each.
+inline constexpr std::int64_t kMaxImagePixels = std::int64_t{8192} * 8192;
 
 [[nodiscard]] Result<ColourImage> read_png(const std::filesystem::path& path);
 /// Encoded image bytes (PNG or JPEG). `where` names them in errors.
@@ -23,7 +27,8 @@ inline constexpr int kMaxImageSidePx = 16384;
 [[nodiscard]] Result<ObjectIdImage> read_png16(const std::filesystem::path& path);
 [[nodiscard]] Status write_png16(const std::filesystem::path& path, const ObjectIdImage& image);
 
-/// One-channel little-endian PFM; its rows are stored bottom first by definition, in memory row 0 is the top.
+/// One-channel PFM, written little-endian, read in either byte order; its rows are stored bottom first by definition,
+/// in memory row 0 is the top.
 [[nodiscard]] Result<DepthImage> read_pfm(const std::filesystem::path& path);
 [[nodiscard]] Status write_pfm(const std::filesystem::path& path, const DepthImage& image);
 

@@ -1,0 +1,122 @@
+#include "warp_server/pacer.h"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "warp_server/virtual_display.h"
+
+namespace lw {
+namespace {
+
+constexpr double kHz = 90.0;
+
+struct RunResult {
+    int refreshes = 0;
+    int missed = 0;
+    Duration mean_lead{};
+};
+
+// Drives the pacer against a display for `seconds`; `work` is the time from the planned wake to presenting.
+RunResult run(Pacer& pacer, double seconds, const std::function<Duration()>& work) {
+    const VirtualDisplay display{TimePoint{}, kHz, {1, 1}};
+    RunResult result;
+    Duration total_lead{};
+    TimePoint now{};
+    TimePoint last_scanout{};
+    while (now < at_seconds(seconds)) {
+        const Refresh next = display.next_refresh(std::max(now, last_scanout));
+        const PacerPlan plan = pacer.next_wake(now, next);
+        result.missed += static_cast<int>(plan.refresh.number - next.number);
+        result.refreshes += static_cast<int>(plan.refresh.number - next.number) + 1;
+        EXPECT_GE(plan.wake, now);
+        now = plan.wake + work();
+        if (now > plan.refresh.scanout_begin) ++result.missed;
+        total_lead += plan.refresh.scanout_begin - plan.wake;
+        pacer.finished({plan.refresh, plan.wake, now});
+        last_scanout = plan.refresh.scanout_begin;
+    }
+    result.mean_lead = total_lead / std::max(1, result.refreshes);
+    return result;
+}
+
+TEST(Pacer, starts_early_before_it_knows_the_work) {
+    const Pacer pacer;
+    const Refresh refresh{10, at_seconds(1.0), from_seconds(1.0 / kHz)};
+    const PacerPlan plan = pacer.next_wake(at_seconds(0.5), refresh);
+    EXPECT_EQ(plan.refresh.number, 10u);
+    EXPECT_NEAR(to_ms(refresh.scanout_begin - plan.wake), Pacer::kUnlearntLead * 1000.0 / kHz, 1e-6);
+}
+
+TEST(Pacer, a_fixed_lead_is_kept_whatever_happens) {
+    PacerSettings settings;
+    settings.fixed_lead = from_ms(5.0);
+    Pacer pacer{settings};
+    run(pacer, 1.0, [] { return from_ms(8.0); });
+    EXPECT_EQ(pacer.lead(from_ms(11.0)), from_ms(5.0));
+}
+
+TEST(Pacer, steady_work_leaves_little_more_lead_than_it_needs) {
+    Pacer pacer;
+    run(pacer, 1.0, [] { return from_ms(3.0); });
+    const RunResult result = run(pacer, 10.0, [] { return from_ms(3.0); });
+    EXPECT_EQ(result.missed, 0);
+    // The smallest margin is 0.3 ms.
+    EXPECT_LE(to_ms(result.mean_lead), 3.31);
+}
+
+TEST(Pacer, never_wakes_before_now) {
+    const Pacer pacer;
+    const Refresh refresh{1, at_seconds(1.0), from_seconds(1.0 / kHz)};
+    const TimePoint now = refresh.scanout_begin - from_ms(1.0);
+    EXPECT_EQ(pacer.next_wake(now, refresh).wake, now);
+}
+
+TEST(Pacer, learns_work_with_noise_and_misses_at_most_one_percent) {
+    Pacer pacer;
+    std::mt19937 random{7};
+    std::exponential_distribution<double> tail{2.0};  // mean 0.5 ms, p99 2.3 ms above the floor
+    const auto work = [&] { return from_ms(2.5 + tail(random)); };
+    run(pacer, 2.0, work);
+    const RunResult result = run(pacer, 60.0, work);
+    EXPECT_LE(result.missed, result.refreshes / 100);
+    EXPECT_LE(to_ms(result.mean_lead), 8.0);  // p99 is 4.8 ms; the largest of 5400 is about 6.8 ms
+}
+
+TEST(Pacer, a_single_disturbance_does_not_keep_the_lead_long) {
+    Pacer pacer;
+    run(pacer, 2.0, [] { return from_ms(3.0); });
+    bool disturbed = false;
+    run(pacer, 0.1, [&] { return std::exchange(disturbed, true) ? from_ms(3.0) : from_ms(30.0); });
+    run(pacer, 8.0, [] { return from_ms(3.0); });
+    // The window forgets the 30 ms at once (one of 256 is beyond p99); the margin's step of 0.5 ms wears off at 1/500
+    // per refresh: after 700 refreshes it is gone.
+    EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.35);
+}
+
+TEST(Pacer, backs_off_when_work_grows) {
+    Pacer pacer;
+    run(pacer, 2.0, [] { return from_ms(3.0); });
+    const RunResult after = run(pacer, 4.0, [] { return from_ms(7.0); });
+    // Every refresh is missed until p99 of the window knows the longer work: its third value of 256.
+    EXPECT_LE(after.missed, 4);
+    EXPECT_GE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 7.3);
+}
+
+TEST(Pacer, work_longer_than_a_period_aims_where_it_can_arrive) {
+    Pacer pacer;
+    run(pacer, 2.0, [] { return from_ms(25.0); });
+    const Refresh next{100, at_seconds(5.0), from_seconds(1.0 / kHz)};
+    const TimePoint now = next.scanout_begin - from_ms(2.0);
+    const PacerPlan plan = pacer.next_wake(now, next);
+    EXPECT_TRUE(pacer.is_too_slow_for(next.period));
+    EXPECT_GE(plan.refresh.scanout_begin - plan.wake, from_ms(25.0));
+    // Not a refresh later than needed.
+    EXPECT_LT(plan.refresh.scanout_begin - next.period - now, from_ms(25.0) + from_ms(11.2));
+    EXPECT_EQ(plan.refresh.scanout_begin - next.scanout_begin,
+              static_cast<Duration::rep>(plan.refresh.number - next.number) * next.period);
+}
+
+}  // namespace
+}  // namespace lw

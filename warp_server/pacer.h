@@ -1,0 +1,79 @@
+#pragma once
+/// When to wake for a refresh: as late as the learnt time from waking to presenting allows, because every millisecond
+/// of lead is a millisecond of latency. Pure logic; time is an argument.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "core/clock.h"
+#include "warp_server/presenter.h"
+
+namespace lw {
+
+struct PacerSettings {
+    /// Latch exactly this long before each scan-out (--lead); learnt when empty. >= 0.
+    std::optional<Duration> fixed_lead;
+    /// The lead never falls below the learnt work time plus this much.
+    Duration smallest_margin = from_ms(0.3);
+    /// What a missed refresh adds to the margin.
+    Duration miss_step = from_ms(0.5);
+};
+
+/// What the server does next.
+struct PacerPlan {
+    Refresh refresh;  ///< the refresh to make a picture for
+    TimePoint wake;   ///< when to latch; not before `now`
+};
+
+/// How the work for one refresh went.
+struct PacerOutcome {
+    Refresh refresh;
+    TimePoint planned_wake;
+    TimePoint presented;
+};
+
+/// One thread.
+class Pacer {
+public:
+    explicit Pacer(const PacerSettings& settings = {}) : settings_{settings}, margin_{settings.smallest_margin} {}
+
+    /// `next` is the first refresh that still lacks a picture (Presenter::next_refresh). The plan is made for it, or,
+    /// when the work ordinarily takes longer than a period, for the first one that can still be reached: a picture
+    /// predicted to the time it is really shown is worth more than a punctual attempt. `next.scanout_begin` > `now`.
+    [[nodiscard]] PacerPlan next_wake(TimePoint now, const Refresh& next) const;
+
+    /// Learns from a finished refresh. A late wake-up counts as work: on a machine that wakes threads late the lead has
+    /// to cover it. A miss widens the margin by `miss_step`; a hit takes 1/kHitsPerMiss of that back, so in the long
+    /// run at most one refresh in kHitsPerMiss is spent on finding out how late is too late.
+    void finished(const PacerOutcome& outcome);
+
+    /// Time from waking to scan-out that next_wake() uses for a display of this period. At most one period.
+    [[nodiscard]] Duration lead(Duration period) const;
+
+    /// The work ordinarily takes longer than a period of this length: not every refresh can get a picture.
+    [[nodiscard]] bool is_too_slow_for(Duration period) const {
+        return !settings_.fixed_lead && ordinary_work_ > period;
+    }
+
+    static constexpr int kHitsPerMiss = 500;
+    /// Work times remembered: 3 s at 90 Hz, so that one disturbance is forgotten after that.
+    static constexpr std::size_t kWindow = 256;
+    /// Until this many are known the lead is kUnlearntLead of a period.
+    static constexpr std::size_t kEnough = 16;
+    static constexpr double kUnlearntLead = 0.8;
+    static constexpr double kQuantile = 0.99;
+
+private:
+    [[nodiscard]] Duration work_quantile(double quantile) const;
+
+    PacerSettings settings_;
+    Duration margin_;
+    std::array<Duration, kWindow> work_{};
+    std::size_t work_count_ = 0;
+    Duration slow_work_{};      ///< kQuantile of the window
+    Duration ordinary_work_{};  ///< its median
+};
+
+}  // namespace lw

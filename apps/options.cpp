@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
-#include <glm/gtc/constants.hpp>
 #include <sstream>
 
 #include "apps/option_values.h"
@@ -395,7 +394,7 @@ Status check_together(const Options& options) {
 
 Camera Options::camera() const {
     const double aspect = static_cast<double>(size_px.x) / size_px.y;
-    return {{}, FovTangents::symmetric(fov_deg * glm::pi<double>() / 180.0, aspect), near_m, size_px};
+    return {{}, FovTangents::symmetric(fov_deg * kRadPerDeg, aspect), near_m, size_px};
 }
 
 Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments) {

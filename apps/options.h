@@ -15,6 +15,8 @@
 
 namespace lw {
 
+inline constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;  ///< angles are degrees on the command line only
+
 enum class Subcommand : std::uint8_t { demo, measure, replay, render, warp, compare, generate, info };
 
 /// Which head pose the client draws for (--source-pose).

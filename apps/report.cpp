@@ -141,6 +141,19 @@ Status make_output_folder(const std::filesystem::path& folder) {
     return Done{};
 }
 
+Status check_output_file(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path)) return Error{"is a folder", path.string(), "name a file to write"};
+    const std::filesystem::path parent = path.parent_path();
+    const std::filesystem::path folder = parent.empty() ? std::filesystem::path{"."} : parent;
+    if (!std::filesystem::is_directory(folder)) {
+        return Error{"no such folder", folder.string(), "make it, or name another one"};
+    }
+    if (access(folder.c_str(), W_OK | X_OK) != 0) {
+        return Error{"cannot write into the folder", folder.string(), "name a folder you may write to"};
+    }
+    return Done{};
+}
+
 Status write_text(const std::filesystem::path& path, std::string_view text) {
     return write_file_atomically(path, std::as_bytes(std::span{text.data(), text.size()}));
 }

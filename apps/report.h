@@ -65,6 +65,9 @@ void describe_settings(Report& report, const Options& options);
 /// Makes `folder` and its parents, and makes sure that a file can be written there: trouble shows before the long work.
 [[nodiscard]] Status make_output_folder(const std::filesystem::path& folder);
 
+/// The file's folder exists and takes files, and the file is no folder: trouble shows before the long work.
+[[nodiscard]] Status check_output_file(const std::filesystem::path& path);
+
 /// Text as a file, through a temporary one.
 [[nodiscard]] Status write_text(const std::filesystem::path& path, std::string_view text);
 

@@ -1,0 +1,21 @@
+#pragma once
+/// The error figures of one shown picture, as every report gives them.
+
+#include <optional>
+
+#include "core/image.h"
+
+namespace lw {
+
+struct ImageErrors {
+    double flip = 0.0;
+    double ssim = 1.0;
+    std::optional<double> psnr_db;  ///< nothing for a picture equal to the truth
+    double hole_fraction = 0.0;     ///< unreached pixels before fill, counted by the warp
+};
+
+/// FLIP, SSIM and PSNR of `shown` against `truth` (equal sizes); the hole fraction stays 0. Pure, any thread.
+/// @param pixels_per_degree  of the display at the image centre (core/camera.h)
+[[nodiscard]] ImageErrors errors_against(const ColourImage& truth, const ColourImage& shown, double pixels_per_degree);
+
+}  // namespace lw

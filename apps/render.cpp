@@ -1,0 +1,46 @@
+/// `latewarp render`: the truth at a pose, and the frame that the client would publish there.
+
+#include <memory>
+
+#include "apps/report.h"
+#include "apps/scene_stage.h"
+#include "apps/subcommands.h"
+#include "core/image_io.h"
+#include "frame_link/frame_folder.h"
+
+namespace lw {
+
+namespace {
+
+/// What the client publishes at `camera`: one sample per pixel, movers at the same time.
+RenderedFrame client_frame(SceneRenderer& renderer, const Camera& camera, double scene_time_s) {
+    auto layer = std::make_shared<Layer>();
+    layer->camera = camera;
+    layer->scene_time_s = scene_time_s;
+    layer->pose_sampled = at_seconds(scene_time_s);
+    renderer.draw(camera, scene_time_s, layer->cpu());
+    renderer.mover_placements(scene_time_s, layer->movers);
+    return {1, {std::move(layer)}, {}};
+}
+
+}  // namespace
+
+Status run_render(const Options& options) {
+    const Status writable = check_output_file(options.output);
+    if (!writable) return writable;
+    Result<SceneStage> stage = make_stage(options);
+    if (!stage) return stage.error();
+    Camera camera = options.camera();
+    camera.world_from_eye = options.pose.value_or(start_pose_of(*stage->scene));
+
+    ColourImage truth;
+    stage->renderer->draw_supersampled(camera, options.scene_time_s, options.truth_samples, truth);
+    if (!options.frame.empty()) {
+        const RenderedFrame frame = client_frame(*stage->renderer, camera, options.scene_time_s);
+        const Status saved = save_frame_folder(frame, options.frame);
+        if (!saved) return saved;
+    }
+    return write_png(options.output, truth);
+}
+
+}  // namespace lw

@@ -1,0 +1,169 @@
+#include "apps/replay_report.h"
+
+#include <algorithm>
+#include <limits>
+#include <numeric>
+
+namespace lw {
+
+namespace {
+
+/// One figure of one method per refresh; nothing for a picture without a PSNR.
+using Figure = std::optional<double> (*)(const ImageErrors&);
+
+std::optional<double> flip_of(const ImageErrors& errors) { return errors.flip; }
+std::optional<double> ssim_of(const ImageErrors& errors) { return errors.ssim; }
+std::optional<double> psnr_of(const ImageErrors& errors) { return errors.psnr_db; }
+std::optional<double> holes_of(const ImageErrors& errors) { return errors.hole_fraction; }
+
+std::vector<double> known_values(const ReplayResult& result, std::size_t method, Figure figure) {
+    std::vector<double> values;
+    for (const RefreshRecord& record : result.refreshes) {
+        if (const std::optional<double> value = figure(record.errors[method])) values.push_back(*value);
+    }
+    return values;
+}
+
+/// The first value warmed caches up and grew buffers; with only one there is nothing better.
+std::optional<Distribution> cost_of(const std::vector<double>& values_ms) {
+    const std::span<const double> values{values_ms};
+    return distribution_of(values.size() > 1 ? values.subspan(1) : values);
+}
+
+void add_errors(Report& report, const std::string& path, const ErrorSummary& summary) {
+    report.set(path + "/flip", summary.flip);
+    report.set(path + "/ssim", summary.ssim);
+    report.set(path + "/psnr_db", summary.psnr_db);
+    report.set(path + "/hole_fraction", summary.hole_fraction);
+}
+
+void add_costs(Report& report, const ReplayResult& result) {
+    const ReplayCosts& costs = result.costs;
+    report.set("cost_ms/warp", cost_of(costs.warp_ms.front()));
+    report.set("cost_ms/prepare", cost_of(costs.prepare_ms.front()));
+    report.set("cost_ms/app", cost_of(costs.app_ms));
+    for (std::size_t i = 1; i < result.labels.size(); ++i) {
+        const std::string path = "cost_ms/baselines/" + result.labels[i];
+        report.set(path + "/warp", cost_of(costs.warp_ms[i]));
+        report.set(path + "/prepare", cost_of(costs.prepare_ms[i]));
+    }
+}
+
+/// A label may hold commas ("points:size_px=2,x=1").
+std::string csv_field(const std::string& text) {
+    return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
+}
+
+LinePlot plot_of(const ReplayResult& result, std::string title, std::string y_label, Figure figure) {
+    LinePlot plot{std::move(title), "photon time, s", std::move(y_label), {}, {}};
+    for (const RefreshRecord& record : result.refreshes) plot.x.push_back(record.photon_s);
+    for (std::size_t i = 0; i < result.labels.size(); ++i) {
+        PlotSeries series{result.labels[i], {}};
+        for (const RefreshRecord& record : result.refreshes) {
+            series.values.push_back(figure(record.errors[i]).value_or(std::numeric_limits<double>::quiet_NaN()));
+        }
+        plot.series.push_back(std::move(series));
+    }
+    return plot;
+}
+
+std::vector<std::string> table_row(const std::string& label, const ErrorSummary& summary,
+                                   const std::optional<Distribution>& warp_ms) {
+    const auto mean_and = [](const std::optional<Distribution>& d, double Distribution::*tail) {
+        if (!d) return std::string{"-"};
+        return fmt::format("{} ({})", short_number(d->mean), short_number((*d).*tail));
+    };
+    return {label,
+            mean_and(summary.flip, &Distribution::p95),
+            mean_and(summary.psnr_db, &Distribution::p5),
+            mean_and(summary.ssim, &Distribution::p5),
+            mean_and(summary.hole_fraction, &Distribution::p95),
+            mean_and(warp_ms, &Distribution::p99)};
+}
+
+}  // namespace
+
+ErrorSummary summary_of(const ReplayResult& result, std::size_t method) {
+    const std::vector<double> psnr_db = known_values(result, method, psnr_of);
+    return {distribution_of(known_values(result, method, flip_of)),
+            distribution_of(known_values(result, method, ssim_of)), distribution_of(psnr_db),
+            distribution_of(known_values(result, method, holes_of)), result.refreshes.size() - psnr_db.size()};
+}
+
+std::size_t typical_refresh(const ReplayResult& result) {
+    std::vector<std::size_t> order(result.refreshes.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto middle = order.begin() + static_cast<std::ptrdiff_t>((order.size() - 1) / 2);
+    std::nth_element(order.begin(), middle, order.end(), [&](std::size_t a, std::size_t b) {
+        const double flip_a = result.refreshes[a].errors.front().flip;
+        const double flip_b = result.refreshes[b].errors.front().flip;
+        return flip_a != flip_b ? flip_a < flip_b : a < b;
+    });
+    return *middle;
+}
+
+void add_replay_results(Report& report, const ReplayResult& result) {
+    report.set("frames", static_cast<std::uint64_t>(result.refreshes.size()));
+    report.set("first_refresh", result.refreshes.front().refresh);
+    report.set("pixels_per_degree", result.pixels_per_degree);
+    const ErrorSummary summary = summary_of(result, 0);
+    add_errors(report, "error", summary);
+    report.set("equal_frames", summary.equal_frames);
+    report.set("bad_depth_pixels", result.bad_depth_pixels);
+    for (std::size_t i = 1; i < result.labels.size(); ++i) {
+        const ErrorSummary baseline = summary_of(result, i);
+        add_errors(report, fmt::format("baselines/{}/error", result.labels[i]), baseline);
+        report.set(fmt::format("baselines/{}/equal_frames", result.labels[i]), baseline.equal_frames);
+    }
+    std::vector<double> ages_ms;
+    for (const RefreshRecord& record : result.refreshes) ages_ms.push_back(record.frame_age_ms());
+    report.set("frame_age_ms", distribution_of(ages_ms));
+    add_costs(report, result);
+}
+
+std::string replay_csv(const ReplayResult& result) {
+    std::string csv = "refresh,frame,latched_s,scanout_begin_s,photon_s,pose_sampled_s,frame_age_ms";
+    for (const std::string& label : result.labels) {
+        for (const char* figure : {"flip", "ssim", "psnr_db", "hole_fraction"}) {
+            csv += "," + csv_field(fmt::format("{}.{}", label, figure));
+        }
+    }
+    csv += "\n";
+    for (const RefreshRecord& record : result.refreshes) {
+        csv += fmt::format("{},{},{},{},{},{},{:.6f}", record.refresh, record.frame, record.latched_s,
+                           record.scanout_begin_s, record.photon_s, record.pose_sampled_s, record.frame_age_ms());
+        for (const ImageErrors& errors : record.errors) {
+            csv += fmt::format(",{},{},{},{}", errors.flip, errors.ssim,
+                               errors.psnr_db ? fmt::format("{}", *errors.psnr_db) : "", errors.hole_fraction);
+        }
+        csv += "\n";
+    }
+    return csv;
+}
+
+std::string replay_html(const ReplayResult& result, const std::string& title, const std::string& description,
+                        std::span<const std::uint8_t> strip_png) {
+    HtmlReport page{title};
+    page.add_paragraph(description);
+    if (!strip_png.empty()) page.add_png(strip_png, "The display frame whose FLIP is the median of the run.");
+    page.add_heading("Error against the antialiased truth at photon time: mean (bad tail)");
+    std::vector<std::vector<std::string>> rows = {
+        {"method", "FLIP (p95)", "PSNR, dB (p5)", "SSIM (p5)", "holes (p95)", "warp, ms (p99)"}};
+    for (std::size_t i = 0; i < result.labels.size(); ++i) {
+        rows.push_back(table_row(result.labels[i], summary_of(result, i), cost_of(result.costs.warp_ms[i])));
+    }
+    page.add_table(rows);
+    page.add_plot(plot_of(result, "FLIP", "lower is better", flip_of));
+    page.add_plot(plot_of(result, "PSNR", "dB, higher is better", psnr_of));
+    page.add_plot(plot_of(result, "SSIM", "higher is better", ssim_of));
+    page.add_plot(plot_of(result, "Holes before fill", "fraction of the picture", holes_of));
+    LinePlot age{"Frame age", "photon time, s", "ms", {}, {{"frame age", {}}}};
+    for (const RefreshRecord& record : result.refreshes) {
+        age.x.push_back(record.photon_s);
+        age.series.front().values.push_back(record.frame_age_ms());
+    }
+    page.add_plot(age);
+    return page.text();
+}
+
+}  // namespace lw

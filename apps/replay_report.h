@@ -1,0 +1,51 @@
+#pragma once
+/// The reports of a replay: JSON (latewarp.replay/1), CSV with one row per display frame, and an HTML page.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/html_report.h"
+#include "apps/image_errors.h"
+#include "apps/replay_run.h"
+#include "apps/report.h"
+#include "core/statistics.h"
+
+namespace lw {
+
+struct ReplayResult {
+    std::vector<std::string> labels;  ///< --method, then the baselines
+    std::vector<RefreshRecord> refreshes;
+    ReplayCosts costs;
+    double pixels_per_degree = 0.0;
+    std::uint64_t bad_depth_pixels = 0;  ///< of --method, over all refreshes
+};
+
+/// The four figures of one method over a run.
+struct ErrorSummary {
+    std::optional<Distribution> flip;
+    std::optional<Distribution> ssim;
+    std::optional<Distribution> psnr_db;  ///< over the frames that differ from the truth
+    std::optional<Distribution> hole_fraction;
+    std::uint64_t equal_frames = 0;  ///< frames equal to the truth, which have no PSNR
+};
+
+/// `method` indexes result.labels. Pure.
+[[nodiscard]] ErrorSummary summary_of(const ReplayResult& result, std::size_t method);
+
+/// Index of the refresh whose FLIP of --method is the median: the typical picture of a run. `refreshes` is not empty.
+[[nodiscard]] std::size_t typical_refresh(const ReplayResult& result);
+
+/// Adds `frames`, `error`, `baselines.<method>.error`, `frame_age_ms` and `cost_ms` to a report that has its settings.
+void add_replay_results(Report& report, const ReplayResult& result);
+
+/// One row per display frame: numbers, times, frame age, and for each method flip, ssim, psnr_db (empty for equal
+/// images) and hole_fraction.
+[[nodiscard]] std::string replay_csv(const ReplayResult& result);
+
+/// Plots over time and the table of distributions.
+/// @param strip_png  a picture strip to show, may be empty
+[[nodiscard]] std::string replay_html(const ReplayResult& result, const std::string& title,
+                                      const std::string& description, std::span<const std::uint8_t> strip_png);
+
+}  // namespace lw

@@ -1,0 +1,182 @@
+#include "apps/replay_run.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace lw {
+
+namespace {
+
+constexpr double kDefaultAppHz = 10.0;
+
+/// Wall time for the cost figures only; the run itself knows nothing but its virtual clock.
+class Stopwatch {
+public:
+    [[nodiscard]] double ms() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+    }
+
+private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+ReplayTiming timing_of(const Options& options) {
+    ReplayTiming timing;
+    timing.app_hz = options.app_hz.value_or(kDefaultAppHz);
+    timing.display_hz = options.display_hz;
+    timing.app_latency = options.app_latency_ms ? from_ms(*options.app_latency_ms) : from_seconds(1.0 / timing.app_hz);
+    timing.lead = from_ms(options.lead_ms);
+    return timing;
+}
+
+Camera camera_at(const Options& options, const Pose& world_from_eye) {
+    Camera camera = options.camera();
+    camera.world_from_eye = world_from_eye;
+    return camera;
+}
+
+/// Calls work(i) for every i in [0, count) on up to `threads` threads.
+template <class Work>
+void for_each_in_parallel(std::size_t count, int threads, Work work) {
+    std::atomic<std::size_t> next{0};
+    const auto take_turns = [&] {
+        for (std::size_t i = next++; i < count; i = next++) work(i);
+    };
+    std::vector<std::thread> others;
+    const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+    for (std::size_t i = 1; i < wanted; ++i) others.emplace_back(take_turns);
+    take_turns();
+    for (std::thread& thread : others) thread.join();
+}
+
+}  // namespace
+
+ReplayRun::ReplayRun(const Options& options, const ReplayTiming& timing, TraceFeed feed, const SceneStage& stage)
+    : options_{options},
+      clock_{timing},
+      feed_{std::move(feed)},
+      renderer_{stage.renderer.get()},
+      refresh_count_{static_cast<std::uint64_t>(std::max(1.0, std::round(options.seconds * options.display_hz)))} {}
+
+Result<ReplayRun> ReplayRun::create(const Options& options, const Trace& trace, const SceneStage& stage) {
+    // The run's clock starts at zero, and with it the trace and the tracker.
+    TraceFeed feed{trace.placed_at(start_pose_of(*stage.scene), options.trace_start_s), TimePoint{},
+                   options.tracker_hz};
+    ReplayRun run{options, timing_of(options), std::move(feed), stage};
+    const bool predicts = options.source_pose == SourcePose::predicted;
+    auto client = make_predictor(predicts ? "constant-velocity" : "none");
+    if (!client) return client.error();
+    run.client_predictor_ = *std::move(client);
+    auto server = make_predictor(options.predict.value_or("oracle"));
+    if (!server) return server.error();
+    run.server_predictor_ = *std::move(server);
+    const Status made = run.make_methods();
+    if (!made) return made.error();
+    return run;
+}
+
+Status ReplayRun::make_methods() {
+    labels_ = {options_.method};
+    labels_.insert(labels_.end(), options_.baselines.begin(), options_.baselines.end());
+    for (const std::string& label : labels_) {
+        if (is_fresh_baseline(label)) {
+            warpers_.emplace_back();
+            continue;
+        }
+        Result<FrameWarper> warper = FrameWarper::create(label, options_.fill);
+        if (!warper) return warper.error();
+        warpers_.emplace_back(*std::move(warper));
+    }
+    pictures_.shown.resize(labels_.size());
+    pictures_.hole_fraction.resize(labels_.size());
+    costs_.prepare_ms.resize(labels_.size());
+    costs_.warp_ms.resize(labels_.size());
+    return Done{};
+}
+
+double ReplayRun::pixels_per_degree() const { return lw::pixels_per_degree(options_.camera()); }
+
+void ReplayRun::draw_client_frame(std::uint64_t frame) {
+    const TimePoint begin = clock_.sampled(frame);
+    const bool predicts = options_.source_pose == SourcePose::predicted;
+    const TimePoint drawn_for = predicts ? clock_.middle_of_life(frame) : begin;
+    const PredictedPose pose = client_predictor_->predict(feed_, begin, drawn_for);
+
+    auto layer = std::make_shared<Layer>();
+    layer->camera = camera_at(options_, pose.world_from_head);
+    layer->pose_sampled = pose.newest_sample;
+    layer->scene_time_s = seconds_of(drawn_for);
+    const Stopwatch drawing;
+    renderer_->draw(layer->camera, layer->scene_time_s, layer->cpu());
+    renderer_->mover_placements(layer->scene_time_s, layer->movers);
+    costs_.app_ms.push_back(drawing.ms());
+    for (std::size_t i = 0; i < warpers_.size(); ++i) {
+        if (!warpers_[i]) continue;
+        const Stopwatch preparing;
+        warpers_[i]->prepare(*layer);
+        costs_.prepare_ms[i].push_back(preparing.ms());
+    }
+    const TimePoint published = clock_.published(frame);
+    frame_ = {frame + 1, {std::move(layer)}, {pose.newest_sample, begin, published, published}};
+    drawn_frame_ = frame;
+}
+
+void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s) {
+    if (!warpers_[method]) {
+        // Without a setting for the source's samples, `fresh-same` is `fresh`.
+        if (!fresh_is_drawn_) renderer_->draw(true_camera, photon_s, fresh_pixels_);
+        fresh_is_drawn_ = true;
+        pictures_.shown[method] = fresh_pixels_.colour;
+        pictures_.hole_fraction[method] = 0.0;
+        return;
+    }
+    FrameWarper& warper = *warpers_[method];
+    const Stopwatch warping;
+    const DisplayFrame& shown = warper.warp(frame_, target);
+    costs_.warp_ms[method].push_back(warping.ms());
+    pictures_.shown[method] = shown.colour;
+    pictures_.hole_fraction[method] = warper.hole_fraction();
+    if (method == 0) bad_depth_count_ += warper.method().counters().bad_depth;
+}
+
+const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
+    const std::uint64_t frame = clock_.frame_shown_at(refresh);
+    if (drawn_frame_ != frame) draw_client_frame(frame);
+
+    const Refresh times = clock_.refresh(refresh);
+    const TimePoint photon = times.photon();
+    const double photon_s = seconds_of(photon);
+    const PredictedPose pose = server_predictor_->predict(feed_, clock_.latched(refresh), photon);
+    const Camera true_camera = camera_at(options_, feed_.pose_at(photon));
+    renderer_->draw_supersampled(true_camera, photon_s, options_.truth_samples, pictures_.truth);
+    renderer_->mover_placements(photon_s, movers_);
+    fresh_is_drawn_ = false;
+    for (std::size_t i = 0; i < labels_.size(); ++i) {
+        show(i, {camera_at(options_, pose.world_from_head), movers_}, true_camera, photon_s);
+    }
+    record_ = {refresh,
+               frame,
+               seconds_of(clock_.latched(refresh)),
+               seconds_of(times.scanout_begin),
+               photon_s,
+               seconds_of(frame_.layers.front()->pose_sampled),
+               {}};
+    return pictures_;
+}
+
+RefreshRecord ReplayRun::judge() const {
+    RefreshRecord record = record_;
+    record.errors.resize(labels_.size());
+    const double ppd = pixels_per_degree();
+    const int cores = static_cast<int>(std::thread::hardware_concurrency());
+    for_each_in_parallel(labels_.size(), options_.threads > 0 ? options_.threads : cores, [&](std::size_t i) {
+        record.errors[i] = errors_against(pictures_.truth, pictures_.shown[i], ppd);
+        record.errors[i].hole_fraction = pictures_.hole_fraction[i];
+    });
+    return record;
+}
+
+}  // namespace lw

@@ -12,7 +12,7 @@ namespace {
 constexpr MethodEntry kMethods[] = {
     {"stale", "newest frame, unwarped", false, "", make_stale_method},
     {"rotation", "homography of the head's rotation, bilinear", false, "", make_rotation_method},
-    // {"points", "every pixel a GL point", true, "size_px", make_points_method},
+    {"points", "every pixel a GL point", true, "size_px", make_points_method},
     {"splat", "every pixel a point, on the CPU", false, "", make_splat_method},
     {"reference", "double precision, slow and obvious: the oracle of the tests", false, "", make_reference_method},
 };

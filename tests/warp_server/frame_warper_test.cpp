@@ -1,0 +1,65 @@
+#include "warp_server/frame_warper.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/warp_server/analytic_scene.h"
+#include "tests/warp_server/image_assertions.h"
+#include "tests/warp_server/synthetic_layers.h"
+
+namespace lw::test {
+namespace {
+
+using SharedLayer = std::shared_ptr<const Layer>;
+
+SharedLayer shared(Layer layer) { return std::make_shared<const Layer>(std::move(layer)); }
+
+RenderedFrame frame_with(std::vector<SharedLayer> layers) {
+    RenderedFrame frame;
+    frame.layers = std::move(layers);
+    return frame;
+}
+
+TEST(FrameWarper, ReportsWhatIsWrongWithItsParts) {
+    EXPECT_FALSE(FrameWarper::create("magic", "none").ok());
+    EXPECT_FALSE(FrameWarper::create("splat", "magic").ok());
+    EXPECT_TRUE(FrameWarper::create("splat", "nearest-background").ok());
+}
+
+TEST(FrameWarper, LeavesNoHoleAndCountsThem) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({96, 96});
+    auto warper = FrameWarper::create("splat", "nearest-background");
+    ASSERT_TRUE(warper.ok());
+    Layer layer = scene.draw(source, 0.0);
+    warper->prepare(layer);
+    const RenderedFrame frame = frame_with({shared(std::move(layer))});
+    const DisplayFrame& shown = warper->warp(frame, {moved(source, {0.1, 0.0, 0.0}, 5.0), {}});
+    EXPECT_THAT(shown.coverage.pixels(), ::testing::Not(::testing::Contains(Coverage::hole)));
+    EXPECT_GT(warper->hole_fraction(), 0.01);
+    EXPECT_LT(warper->hole_fraction(), 0.5);
+}
+
+TEST(FrameWarper, OfSeveralLayersTheNearestSurfaceIsSeen) {
+    const Camera camera = street_camera({8, 4});
+    Layer back = indexed_layer(camera, 0.01F);
+    Layer front = indexed_layer(camera, 0.05F);
+    for (Rgba8& colour : front.cpu().colour.pixels()) colour = {255, 0, 0, 255};
+    for (int y = 0; y < 4; ++y) {
+        for (int x = 4; x < 8; ++x) front.cpu().depth.at(x, y) = 0.0F;  // sky: the back layer is nearer there
+    }
+    const Rgba8 back_colour = back.cpu().colour.at(6, 1);
+    const SharedLayer shared_back = shared(std::move(back));
+    const SharedLayer shared_front = shared(std::move(front));
+    for (const bool front_first : {true, false}) {
+        auto warper = FrameWarper::create("splat", "none");
+        const RenderedFrame frame =
+            front_first ? frame_with({shared_front, shared_back}) : frame_with({shared_back, shared_front});
+        const DisplayFrame& shown = warper->warp(frame, {camera, {}});
+        EXPECT_EQ(shown.colour.at(1, 1), (Rgba8{255, 0, 0, 255}));
+        EXPECT_EQ(shown.colour.at(6, 1), back_colour);
+    }
+}
+
+}  // namespace
+}  // namespace lw::test

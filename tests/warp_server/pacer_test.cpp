@@ -41,7 +41,7 @@ RunResult run(Pacer& pacer, double seconds, const std::function<Duration()>& wor
     return result;
 }
 
-TEST(Pacer, starts_early_before_it_knows_the_work) {
+TEST(Pacer, StartsEarlyBeforeItKnowsTheWork) {
     const Pacer pacer;
     const Refresh refresh{10, at_seconds(1.0), from_seconds(1.0 / kHz)};
     const PacerPlan plan = pacer.next_wake(at_seconds(0.5), refresh);
@@ -49,7 +49,7 @@ TEST(Pacer, starts_early_before_it_knows_the_work) {
     EXPECT_NEAR(to_ms(refresh.scanout_begin - plan.wake), Pacer::kUnlearntLead * 1000.0 / kHz, 1e-6);
 }
 
-TEST(Pacer, a_fixed_lead_is_kept_whatever_happens) {
+TEST(Pacer, AFixedLeadIsKeptWhateverHappens) {
     PacerSettings settings;
     settings.fixed_lead = from_ms(5.0);
     Pacer pacer{settings};
@@ -57,7 +57,7 @@ TEST(Pacer, a_fixed_lead_is_kept_whatever_happens) {
     EXPECT_EQ(pacer.lead(from_ms(11.0)), from_ms(5.0));
 }
 
-TEST(Pacer, steady_work_leaves_little_more_lead_than_it_needs) {
+TEST(Pacer, SteadyWorkLeavesLittleMoreLeadThanItNeeds) {
     Pacer pacer;
     run(pacer, 1.0, [] { return from_ms(3.0); });
     const RunResult result = run(pacer, 10.0, [] { return from_ms(3.0); });
@@ -66,14 +66,14 @@ TEST(Pacer, steady_work_leaves_little_more_lead_than_it_needs) {
     EXPECT_LE(to_ms(result.mean_lead), 3.31);
 }
 
-TEST(Pacer, never_wakes_before_now) {
+TEST(Pacer, NeverWakesBeforeNow) {
     const Pacer pacer;
     const Refresh refresh{1, at_seconds(1.0), from_seconds(1.0 / kHz)};
     const TimePoint now = refresh.scanout_begin - from_ms(1.0);
     EXPECT_EQ(pacer.next_wake(now, refresh).wake, now);
 }
 
-TEST(Pacer, learns_work_with_noise_and_misses_at_most_one_percent) {
+TEST(Pacer, LearnsWorkWithNoiseAndMissesAtMostOnePercent) {
     Pacer pacer;
     std::mt19937 random{7};
     std::exponential_distribution<double> tail{2.0};  // mean 0.5 ms, p99 2.3 ms above the floor
@@ -84,7 +84,7 @@ TEST(Pacer, learns_work_with_noise_and_misses_at_most_one_percent) {
     EXPECT_LE(to_ms(result.mean_lead), 8.0);  // p99 is 4.8 ms; the largest of 5400 is about 6.8 ms
 }
 
-TEST(Pacer, a_single_disturbance_does_not_keep_the_lead_long) {
+TEST(Pacer, ASingleDisturbanceDoesNotKeepTheLeadLong) {
     Pacer pacer;
     run(pacer, 2.0, [] { return from_ms(3.0); });
     bool disturbed = false;
@@ -95,7 +95,7 @@ TEST(Pacer, a_single_disturbance_does_not_keep_the_lead_long) {
     EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.35);
 }
 
-TEST(Pacer, backs_off_when_work_grows) {
+TEST(Pacer, BacksOffWhenWorkGrows) {
     Pacer pacer;
     run(pacer, 2.0, [] { return from_ms(3.0); });
     const RunResult after = run(pacer, 4.0, [] { return from_ms(7.0); });
@@ -104,7 +104,7 @@ TEST(Pacer, backs_off_when_work_grows) {
     EXPECT_GE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 7.3);
 }
 
-TEST(Pacer, work_longer_than_a_period_aims_where_it_can_arrive) {
+TEST(Pacer, WorkLongerThanAPeriodAimsWhereItCanArrive) {
     Pacer pacer;
     run(pacer, 2.0, [] { return from_ms(25.0); });
     const Refresh next{100, at_seconds(5.0), from_seconds(1.0 / kHz)};

@@ -52,7 +52,7 @@ struct Rig {
     ServerLoop loop;
 };
 
-TEST(ServerLoop, nothing_is_shown_or_counted_before_the_first_frame) {
+TEST(ServerLoop, NothingIsShownOrCountedBeforeTheFirstFrame) {
     Rig rig;
     rig.show(10);
     EXPECT_TRUE(rig.loop.records().empty());
@@ -60,7 +60,7 @@ TEST(ServerLoop, nothing_is_shown_or_counted_before_the_first_frame) {
     EXPECT_GE(seconds_of(rig.clock.now()), 9.0 / kHz);
 }
 
-TEST(ServerLoop, every_refresh_after_the_first_frame_gets_a_record) {
+TEST(ServerLoop, EveryRefreshAfterTheFirstFrameGetsARecord) {
     Rig rig;
     rig.begin();
     rig.show(200);
@@ -72,7 +72,7 @@ TEST(ServerLoop, every_refresh_after_the_first_frame_gets_a_record) {
     EXPECT_EQ(rig.method().last_mover_count, 3u);
 }
 
-TEST(ServerLoop, the_times_of_a_refresh_are_in_order) {
+TEST(ServerLoop, TheTimesOfARefreshAreInOrder) {
     Rig rig;
     rig.begin();
     rig.show(50);
@@ -90,7 +90,7 @@ TEST(ServerLoop, the_times_of_a_refresh_are_in_order) {
     }
 }
 
-TEST(ServerLoop, warps_with_the_newest_head_sample_at_the_latch) {
+TEST(ServerLoop, WarpsWithTheNewestHeadSampleAtTheLatch) {
     Rig rig{from_ms(5.0)};
     rig.begin();
     rig.show(30);
@@ -100,7 +100,7 @@ TEST(ServerLoop, warps_with_the_newest_head_sample_at_the_latch) {
     EXPECT_NEAR(rig.method().last_target.world_from_eye.position_m.x, seconds_of(last.pose_sampled), 1e-12);
 }
 
-TEST(ServerLoop, latches_the_newest_frame) {
+TEST(ServerLoop, LatchesTheNewestFrame) {
     Rig rig;
     rig.begin();
     rig.show(5);
@@ -112,7 +112,7 @@ TEST(ServerLoop, latches_the_newest_frame) {
     EXPECT_EQ(rig.loop.frames_shown(), 2u);
 }
 
-TEST(ServerLoop, a_slow_warp_is_its_own_fault) {
+TEST(ServerLoop, ASlowWarpIsItsOwnFault) {
     Rig rig{from_ms(5.0)};
     rig.begin();
     rig.show(5);
@@ -123,7 +123,7 @@ TEST(ServerLoop, a_slow_warp_is_its_own_fault) {
     EXPECT_EQ(record.cause, MissCause::own);
 }
 
-TEST(ServerLoop, a_late_wakeup_is_told_from_a_slow_warp) {
+TEST(ServerLoop, ALateWakeupIsToldFromASlowWarp) {
     Rig rig{from_ms(5.0)};
     rig.begin();
     rig.show(5);
@@ -133,7 +133,7 @@ TEST(ServerLoop, a_late_wakeup_is_told_from_a_slow_warp) {
     EXPECT_EQ(rig.loop.records().back().cause, MissCause::late_wakeup);
 }
 
-TEST(ServerLoop, waking_after_the_scanout_makes_no_picture_for_it) {
+TEST(ServerLoop, WakingAfterTheScanoutMakesNoPictureForIt) {
     Rig rig{from_ms(5.0)};
     rig.begin();
     rig.show(5);
@@ -154,7 +154,7 @@ TEST(ServerLoop, waking_after_the_scanout_makes_no_picture_for_it) {
     EXPECT_FALSE(records[records.size() - 2].presented);
 }
 
-TEST(ServerLoop, a_warp_longer_than_a_period_counts_every_refresh_it_skips) {
+TEST(ServerLoop, AWarpLongerThanAPeriodCountsEveryRefreshItSkips) {
     Rig rig;
     rig.begin();
     rig.work = [] { return from_ms(30.0); };
@@ -169,7 +169,7 @@ TEST(ServerLoop, a_warp_longer_than_a_period_counts_every_refresh_it_skips) {
     EXPECT_FALSE(records.back().missed());
 }
 
-TEST(ServerLoop, a_bad_head_pose_holds_the_last_good_one) {
+TEST(ServerLoop, ABadHeadPoseHoldsTheLastGoodOne) {
     bool bad = false;
     Rig rig{from_ms(5.0), [&bad](TimePoint time) {
                 Pose pose = walking(time);
@@ -192,7 +192,7 @@ TEST(ServerLoop, a_bad_head_pose_holds_the_last_good_one) {
     EXPECT_GT(rig.loop.records().back().world_from_head.position_m.x, good.position_m.x);
 }
 
-TEST(ServerLoop, no_allocation_per_refresh) {
+TEST(ServerLoop, NoAllocationPerRefresh) {
     Rig rig;
     rig.begin();
     rig.show(20);
@@ -201,7 +201,7 @@ TEST(ServerLoop, no_allocation_per_refresh) {
     EXPECT_EQ(test::allocations_on_this_thread(), before);
 }
 
-TEST(ServerLoop, ends_when_asked_to) {
+TEST(ServerLoop, EndsWhenAskedTo) {
     Rig rig;
     rig.begin();
     rig.work = [&rig] {
@@ -212,7 +212,7 @@ TEST(ServerLoop, ends_when_asked_to) {
     EXPECT_EQ(rig.loop.records().size(), 21u);
 }
 
-TEST(SeenLatencies, a_missed_refresh_is_charged_what_was_on_screen) {
+TEST(SeenLatencies, AMissedRefreshIsChargedWhatWasOnScreen) {
     std::vector<DisplayRecord> records(4);
     for (std::size_t i = 0; i < records.size(); ++i) {
         const auto number = static_cast<Duration::rep>(i);

@@ -10,7 +10,7 @@
 namespace lw {
 namespace {
 
-TEST(VirtualDisplay, the_next_refresh_begins_after_now) {
+TEST(VirtualDisplay, TheNextRefreshBeginsAfterNow) {
     for (const double hz : {25.0, 60.0, 72.0, 90.0, 120.0, 144.0}) {
         const VirtualDisplay display{at_seconds(3.0), hz, {1, 1}};
         std::uint64_t expected = 1;
@@ -27,26 +27,26 @@ TEST(VirtualDisplay, the_next_refresh_begins_after_now) {
     }
 }
 
-TEST(VirtualDisplay, no_drift_after_an_hour) {
+TEST(VirtualDisplay, NoDriftAfterAnHour) {
     const VirtualDisplay display{TimePoint{}, 90.0, {1, 1}};
     const Refresh refresh = display.next_refresh(at_seconds(3600.0) - from_ms(1.0));
     EXPECT_EQ(refresh.number, 324000u);
     EXPECT_EQ(refresh.scanout_begin, at_seconds(3600.0));
 }
 
-TEST(VirtualDisplay, before_its_start_the_first_scanout_is_next) {
+TEST(VirtualDisplay, BeforeItsStartTheFirstScanoutIsNext) {
     const VirtualDisplay display{at_seconds(1.0), 90.0, {1, 1}};
     EXPECT_EQ(display.next_refresh(at_seconds(0.0)).number, 0u);
     EXPECT_EQ(display.next_refresh(at_seconds(0.0)).scanout_begin, at_seconds(1.0));
 }
 
-TEST(VirtualDisplay, photons_leave_in_the_middle_of_the_scanout) {
+TEST(VirtualDisplay, PhotonsLeaveInTheMiddleOfTheScanout) {
     const VirtualDisplay display{TimePoint{}, 50.0, {1, 1}};
     const Refresh refresh = display.next_refresh(TimePoint{});
     EXPECT_EQ(refresh.photon(), at_seconds(0.03));
 }
 
-TEST(VirtualDisplay, keeps_the_last_picture) {
+TEST(VirtualDisplay, KeepsTheLastPicture) {
     VirtualDisplay display{TimePoint{}, 90.0, {2, 2}};
     EXPECT_EQ(display.picture().at(1, 1), (Rgba8{0, 0, 0, 255}));
     DisplayFrame frame;
@@ -58,7 +58,7 @@ TEST(VirtualDisplay, keeps_the_last_picture) {
     EXPECT_EQ(display.picture_refresh().number, refresh.number);
 }
 
-TEST(PngPresenter, writes_every_other_picture_and_passes_all_on) {
+TEST(PngPresenter, WritesEveryOtherPictureAndPassesAllOn) {
     const std::filesystem::path folder = std::filesystem::path{LW_TEST_OUTPUT_DIR} / "png_presenter";
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
@@ -82,7 +82,7 @@ TEST(PngPresenter, writes_every_other_picture_and_passes_all_on) {
     EXPECT_EQ(third->at(0, 0), (Rgba8{2, 0, 0, 255}));
 }
 
-TEST(PngPresenter, reports_a_folder_it_cannot_write_to_and_goes_on) {
+TEST(PngPresenter, ReportsAFolderItCannotWriteToAndGoesOn) {
     VirtualDisplay display{TimePoint{}, 90.0, {4, 4}};
     PngPresenter presenter{display, "/nonexistent-folder/of/no/one"};
     DisplayFrame frame;

@@ -1,0 +1,32 @@
+#pragma once
+// Bindings and block layouts of the warp shaders: included by C++ and by GLSL.
+
+#ifdef __cplusplus
+#include <glm/glm.hpp>
+namespace lw::glsl {
+using vec4 = glm::vec4;
+#endif
+
+// Texture units of a source layer.
+#define LW_WARP_COLOUR_UNIT 0
+#define LW_WARP_DEPTH_UNIT 1
+#define LW_WARP_OBJECT_ID_UNIT 2
+
+// Shader storage buffers.
+#define LW_WARP_OBJECTS_BINDING 0
+#define LW_WARP_COUNTERS_BINDING 1
+
+// Where an object's source pixels go, by columns: h = x_px * x + y_px * y + one + depth * z, each column as (x, y, w) of
+// the homogeneous target pixel (h.x, h.y) / h.w. What is left of the vectors:
+//   one.w  1 when the object has a usable placement, else 0: its pixels are counted and skipped
+//   z.w    scale of the depth: target depth = z.w * depth / h.w
+struct WarpObject {
+    vec4 x;
+    vec4 y;
+    vec4 one;
+    vec4 z;
+};
+
+#ifdef __cplusplus
+}  // namespace lw::glsl
+#endif

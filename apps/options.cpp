@@ -123,7 +123,11 @@ void declare_timing(Declarer& declare) {
                       options.predict = text;
                   });
     declare.number("--tracker-hz", "HZ", {1, 10000}, options.tracker_hz, "rate of the head tracker (1000)");
-    declare.number("--lead", "MS", {0, 1000}, options.lead_ms, "latch this long before scan-out (5)");
+    declare.value("--lead", "MS", "latch this long before scan-out (5 in replay; live learns it)",
+                  [&options](const std::string& text) {
+                      options.lead_ms = number_in("--lead", text, {0, 1000});
+                      options.lead_given = true;
+                  });
     declare.number("--app-latency", "MS", {0, 10000}, options.app_latency_ms,
                    "replay: from sampling to publishing (one client period)");
     declare.number("--seconds", "S", {1e-3, 3600}, options.seconds, "length of the run (10)");

@@ -53,6 +53,7 @@ struct Options {
     std::optional<std::string> predict;    ///< --predict; oracle in replay, constant-velocity live unless given
     double tracker_hz = 1000.0;            ///< --tracker-hz, [1, 10000]
     double lead_ms = 5.0;                  ///< --lead: latch this long before scan-out, milliseconds in [0, 1000]
+    bool lead_given = false;               ///< live learns its lead unless this is set
     std::optional<double> app_latency_ms;  ///< --app-latency, milliseconds; one app period in replay unless given
     int truth_samples = 2;                 ///< --truth-samples: N x N samples per pixel; 1, 2 or 4
     double seconds = 10.0;                 ///< --seconds: length of the run, (0, 3600]

@@ -12,7 +12,7 @@
 
 namespace lw {
 
-/// One measurement of the head. `number` counts the tracker's samples and never repeats.
+/// One measurement of the head. `number` counts the tracker's samples from 1 and never repeats.
 struct PoseSample {
     TimePoint time;
     Pose world_from_head;
@@ -32,6 +32,7 @@ public:
 /// A feed that also knows the future: a recording. What `--predict oracle` asks.
 class ForeseeingHeadPoseFeed : public HeadPoseFeed {
 public:
+    /// The pose at `time`; the first and the last pose hold outside. No allocation, no waiting.
     [[nodiscard]] virtual Pose pose_at(TimePoint time) const = 0;
 };
 

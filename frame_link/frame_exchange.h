@@ -7,7 +7,17 @@
 ///
 /// Ownership: three slots, one with the producer, one with the consumer, one between them. Publishing puts the new
 /// frame in the producer's slot and swaps it with the middle one; what comes back is an older frame, and the producer
-/// drops it there: last references, and with them pixel buffers and textures, die on the client's thread.
+/// drops it there: last references, and with them pixel buffers and textures, die on the client's thread. The consumer
+/// is handed a plain pointer, never a shared one, so it cannot end up with a last reference; it must not copy the
+/// frame's `layers` pointers out for longer than the frame lives. At most three frames are alive in here: the one the
+/// consumer shows, the newest, and between two publications one that the consumer has given back.
+///
+/// The end: when the producer stops publishing, the consumer goes on showing the newest frame. To end, first the
+/// consumer stops calling latest() (its thread is joined, or has told the producer so with release and acquire), then
+/// the producer calls drop_all() on its own thread, with its GL context current if the frames are textures; after that
+/// the exchange may be destroyed anywhere. Destroyed earlier, it drops what it holds on the destroying thread, which is
+/// only right for CPU frames.
+///
 /// Fences: the consumer takes CPU frames as they are; texture frames carry a `rendered` fence per layer, which the
 /// consumer polls. Nothing in this class waits for a fence.
 
@@ -22,12 +32,20 @@ namespace lw {
 
 class FrameExchange {
 public:
+    FrameExchange() = default;
+    FrameExchange(const FrameExchange&) = delete;
+    FrameExchange& operator=(const FrameExchange&) = delete;
+
     /// Producer only. `frame` is not null. Wait-free but for destroying the frame that fell out.
     void publish(std::shared_ptr<const RenderedFrame> frame);
 
     /// Consumer only. The newest published frame, or null before the first one. Wait-free. The frame stays valid until
     /// the consumer's next call.
     [[nodiscard]] const RenderedFrame* latest();
+
+    /// Producer only, once the consumer has stopped for good (see "The end" above). Drops every frame held here, on
+    /// the calling thread; pointers handed out by latest() die with them.
+    void drop_all();
 
     /// Any thread: frames published so far, and frames the consumer took.
     [[nodiscard]] std::uint64_t published_count() const { return published_count_.load(std::memory_order_relaxed); }

@@ -23,11 +23,20 @@ class HeadPosePredictor {
 public:
     virtual ~HeadPosePredictor() = default;
     /// The pose at `target`, from samples stamped at or before `now`. Always finite and unit; an unusable sample is
-    /// passed over. Before the feed's first sample: the identity.
+    /// passed over. Before the feed's first sample: the identity, stamped `now`, with sample number 0.
     [[nodiscard]] virtual PredictedPose predict(const HeadPoseFeed& feed, TimePoint now, TimePoint target) = 0;
 };
 
-/// Names that make_predictor() accepts: none, constant-velocity, oracle (needs a ForeseeingHeadPoseFeed).
+/// How far ahead of the newest sample constant velocity is believed. Over the same recordings, 300 ms ahead, holding
+/// still from here on has a mean error of 6.3 degrees where going on has 7.4.
+inline constexpr Duration kVelocityHorizon = std::chrono::milliseconds{200};
+
+/// Names that make_predictor() accepts:
+/// - `none`: the newest sample as it is;
+/// - `constant-velocity`: linear and angular velocity of the last 30 ms, carried on from the newest sample; one wild
+///   sample in that time changes nothing. Beyond kVelocityHorizon after the newest sample the pose holds still;
+/// - `oracle`: the recording's own pose at `target`. Its feed must be a ForeseeingHeadPoseFeed (programmer error
+///   otherwise); `newest_sample` is still the newest one at `now`, so that latencies stay comparable.
 [[nodiscard]] std::vector<std::string_view> predictor_names();
 [[nodiscard]] Result<std::unique_ptr<HeadPosePredictor>> make_predictor(std::string_view name);
 

@@ -2,27 +2,13 @@
 
 #include "core/check.h"
 #include "scene/animation.h"
+#include "scene/placement.h"
 #include "scene/scene.h"
 
 namespace lw::scene {
 namespace {
 
-struct LocalPlacement {
-    glm::dvec3 translation;
-    glm::dquat rotation;
-    glm::dvec3 scale;
-};
-
-glm::dmat4 matrix_of(const LocalPlacement& local) {
-    glm::dmat4 matrix = glm::mat4_cast(local.rotation);
-    matrix[0] *= local.scale.x;
-    matrix[1] *= local.scale.y;
-    matrix[2] *= local.scale.z;
-    matrix[3] = glm::dvec4{local.translation, 1.0};
-    return matrix;
-}
-
-void apply(const AnimationChannel& channel, double time_s, LocalPlacement& local) {
+void apply(const AnimationChannel& channel, double time_s, Placement& local) {
     const glm::dvec4 value = channel_value(channel, time_s);
     switch (channel.property) {
         case AnimatedProperty::translation:
@@ -66,7 +52,7 @@ void SceneState::set_time(double time_s) {
     for (std::size_t i = 0; i < scene_->nodes.size(); ++i) {
         if (evaluated_ && !changes_[i]) continue;
         const Node& node = scene_->nodes[i];
-        LocalPlacement local{node.translation, node.rotation, node.scale};
+        Placement local{node.translation, node.rotation, node.scale};
         for (std::size_t k = first_channel_[i]; k < first_channel_[i + 1]; ++k) {
             apply(scene_->channels[channels_of_nodes_[k]], time_s, local);
         }

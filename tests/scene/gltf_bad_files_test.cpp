@@ -1,0 +1,98 @@
+// Every file of ../shared/data/gltf_bad loads or is refused with one line, quickly and within bounded memory.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "scene/gltf.h"
+#include "tests/support/shared_data.h"
+
+namespace lw::scene {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct IndexedFile {
+    std::string path;
+    bool valid = false;  // the validator found no error
+};
+
+std::vector<IndexedFile> indexed_files() {
+    std::vector<IndexedFile> files;
+    std::ifstream index{test::shared_data_dir() / "gltf_bad" / "INDEX.tsv"};
+    for (std::string line; std::getline(index, line);) {
+        if (line.empty() || line[0] == '#' || line.rfind("path\t", 0) == 0) continue;
+        std::istringstream cells{line};
+        IndexedFile file;
+        std::string errors;
+        std::getline(cells, file.path, '\t');
+        std::getline(cells, errors, '\t');
+        file.valid = errors == "0";
+        files.push_back(file);
+    }
+    return files;
+}
+
+/// Largest resident size of this process so far, bytes (Linux: /proc/self/status in kB).
+std::uint64_t peak_resident_bytes() {
+    std::ifstream status{"/proc/self/status"};
+    for (std::string line; std::getline(status, line);) {
+        if (line.rfind("VmHWM:", 0) == 0) return std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
+    }
+    return 0;
+}
+
+// Valid, and refused all the same: they demand what we do not have, and say so.
+const std::set<std::string> kRightlyRefused = {
+    "magnum-plugins/CgltfImporter/required-extensions-unsupported.gltf",
+    "magnum-plugins/GltfImporter/required-extensions-unsupported.gltf",
+    "magnum-plugins/GltfImporter/version-unsupported-min.gltf",
+};
+
+// Sanitizers slow the process down and keep freed memory.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr double kMaxSeconds = 10.0;
+constexpr std::uint64_t kMaxResidentBytes = std::uint64_t{2} << 30;
+#else
+constexpr double kMaxSeconds = 2.0;
+constexpr std::uint64_t kMaxResidentBytes = std::uint64_t{512} << 20;
+#endif
+
+TEST(DataGltfBad, EveryFileLoadsOrIsRefusedWithOneLine) {
+    LW_NEED_SHARED_DATA();
+    const std::vector<IndexedFile> files = indexed_files();
+    ASSERT_EQ(files.size(), 455u);
+    for (const IndexedFile& file : files) {
+        SCOPED_TRACE(file.path);
+        const fs::path path = test::shared_data_dir() / "gltf_bad" / file.path;
+        ASSERT_TRUE(fs::exists(path));
+        const auto start = std::chrono::steady_clock::now();
+        const auto scene = load_gltf(path);
+        const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+        // A bound against hanging, not a measurement.
+        EXPECT_LT(seconds.count(), kMaxSeconds);
+        if (scene.ok()) continue;
+        const std::string message = scene.error().message();
+        EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+        EXPECT_NE(message.find(path.filename().string()), std::string::npos) << message;
+        EXPECT_FALSE(scene.error().what.empty());
+        EXPECT_FALSE(scene.error().mend.empty());
+        if (file.valid) {
+            EXPECT_EQ(kRightlyRefused.count(file.path), 1u) << message;
+        }
+        if (std::getenv("LW_SHOW_REFUSALS") != nullptr) std::printf("%s\n", message.c_str());
+    }
+    EXPECT_LT(peak_resident_bytes(), kMaxResidentBytes);
+}
+
+}  // namespace
+}  // namespace lw::scene

@@ -27,6 +27,10 @@ SourceFromTarget source_from_target(const Camera& source, const Camera& target) 
 
 }  // namespace
 
+glm::mat3 background_source_from_target(const Camera& source, const Camera& target) {
+    return source_from_target(source, target).matrix;
+}
+
 void resample_by_rotation(const Layer& layer, const Camera& target, DisplayFrame& out, WarpCounters& counters) {
     const CpuPixels& pixels = checked_cpu_pixels(layer);
     const glm::ivec2 source_size_px = layer.camera.size_px;

@@ -13,4 +13,9 @@ namespace lw {
 /// Counts bad depths of the pixels it shows and gives them depth 0.
 void resample_by_rotation(const Layer& layer, const Camera& target, DisplayFrame& out, WarpCounters& counters);
 
+/// Homography source_px <- target_px of the rotation and field of view alone, columns x, y, 1: where the background of
+/// a target pixel lies in the source. Its third component is above 0 in front of the source eye. Exactly the identity
+/// when nothing turned. Pure, any thread.
+[[nodiscard]] glm::mat3 background_source_from_target(const Camera& source, const Camera& target);
+
 }  // namespace lw

@@ -78,9 +78,8 @@ private:
             for (int column = first_centre(low.x); column < first_centre(high.x) && column < out.depth.width();
                  ++column) {
                 const glm::dvec2 offset = glm::dvec2{column + 0.5, row + 0.5} - placed->position_px;
-                const auto index = static_cast<std::uint32_t>(y * pixels.depth.width() + x);
-                const WinnerKey key =
-                    winner_key(snapped(placed->depth), static_cast<float>(glm::dot(offset, offset)), index);
+                const WinnerKey key = winner_key(snapped(placed->depth), static_cast<float>(glm::dot(offset, offset)),
+                                                 pixels.colour.at(x, y));
                 if (key <= keys_.at(column, row)) continue;
                 keys_.at(column, row) = key;
                 out.colour.at(column, row) = pixels.colour.at(x, y);

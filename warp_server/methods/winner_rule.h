@@ -6,29 +6,32 @@
 #include <bit>
 #include <cstdint>
 
+#include "core/image.h"
+
 namespace lw {
 
 /// The larger key wins; 0 is "no sample". From the top bit down:
 ///   15 bits  depth step: nearer wins; steps of 0.4 %, so that neighbours on one surface do not fight over noise,
 ///    8 bits  closeness of the projected place to the pixel centre, 1 (far) to 255,
 ///   15 bits  rest of the depth,
-///   26 bits  source pixel index.
+///    2 bits  0,
+///   24 bits  the sample's colour: what the pixel will show, so that nobody has to look it up again, and samples that
+///            tie in everything else tie only when they look the same.
 /// A tolerance instead of steps ("within 0.4 %") would be cyclic: A beats B beats C beats A.
 using WinnerKey = std::uint64_t;
 
-inline constexpr int kWinnerIndexBits = 26;
-/// Largest number of source pixels a key can tell apart: 8192 x 8192.
-inline constexpr std::int64_t kMaxKeyedPixels = std::int64_t{1} << kWinnerIndexBits;
+/// Closeness is told apart up to this squared distance from the pixel centre, px^2, in 254 equal steps.
+inline constexpr float kFarthestTold2_px = 4.0F;
 
 /// @param depth         target depth in [0, 1]
-/// @param distance2_px  squared distance of the projected place from the pixel centre, px^2; told apart up to 4
-/// @param source_index  below kMaxKeyedPixels
-[[nodiscard]] inline WinnerKey winner_key(float depth, float distance2_px, std::uint32_t source_index) {
+/// @param distance2_px  squared distance of the projected place from the pixel centre, px^2
+[[nodiscard]] inline WinnerKey winner_key(float depth, float distance2_px, Rgba8 colour) {
     const auto depth_bits = std::bit_cast<std::uint32_t>(depth);
-    const auto farness = static_cast<std::uint32_t>(std::min(254.0F, distance2_px * 63.5F));
+    const auto farness = static_cast<std::uint32_t>(std::min(254.0F, distance2_px * (254.0F / kFarthestTold2_px)));
     const std::uint64_t step = depth_bits >> 15U;
     const std::uint64_t rest = depth_bits & 0x7FFFU;
-    return (step << 49U) | (std::uint64_t{255U - farness} << 41U) | (rest << 26U) | source_index;
+    return (step << 49U) | (std::uint64_t{255U - farness} << 41U) | (rest << 26U) | (std::uint64_t{colour.b} << 16U) |
+           (std::uint64_t{colour.g} << 8U) | colour.r;
 }
 
 [[nodiscard]] inline float winner_depth(WinnerKey key) {
@@ -37,8 +40,10 @@ inline constexpr std::int64_t kMaxKeyedPixels = std::int64_t{1} << kWinnerIndexB
     return std::bit_cast<float>((step << 15U) | rest);
 }
 
-[[nodiscard]] inline std::uint32_t winner_source_index(WinnerKey key) {
-    return static_cast<std::uint32_t>(key) & ((1U << kWinnerIndexBits) - 1U);
+/// Opaque: a display has no alpha.
+[[nodiscard]] inline Rgba8 winner_colour(WinnerKey key) {
+    return {static_cast<std::uint8_t>(key), static_cast<std::uint8_t>(key >> 8U), static_cast<std::uint8_t>(key >> 16U),
+            255};
 }
 
 }  // namespace lw

@@ -1,0 +1,101 @@
+#include "apps/live_report.h"
+
+#include <fmt/format.h>
+
+namespace lw {
+namespace {
+
+std::optional<Distribution> distribution_ms(const std::vector<Duration>& durations) {
+    std::vector<double> ms;
+    ms.reserve(durations.size());
+    for (const Duration duration : durations) ms.push_back(to_ms(duration));
+    return distribution_of(ms);
+}
+
+double published_hz(const std::vector<ClientFrameRecord>& frames) {
+    if (frames.size() < 2) return 0.0;
+    const Duration span = frames.back().times.published - frames.front().times.published;
+    return static_cast<double>(frames.size() - 1) / to_seconds(span);
+}
+
+std::string percentiles(const std::optional<Distribution>& distribution) {
+    if (!distribution) return "-";
+    return fmt::format("{:.1f} (p99 {:.1f})", distribution->p50, distribution->p99);
+}
+
+}  // namespace
+
+LiveSummary summary_of(const LiveResult& result) {
+    LiveSummary summary;
+    summary.display = count_misses(result.refreshes);
+    summary.app_hz = published_hz(result.app_frames);
+    summary.app_frames = result.app_frames.size();
+    summary.app_frames_dropped = summary.app_frames - std::min(summary.app_frames, result.app_frames_shown);
+
+    const SeenLatencies seen = seen_latencies(result.refreshes);
+    summary.motion_to_photon_ms = distribution_ms(seen.motion_to_photon);
+    summary.frame_age_ms = distribution_ms(seen.frame_age);
+
+    std::vector<Duration> warp;
+    std::vector<Duration> wake_late;
+    for (const DisplayRecord& refresh : result.refreshes) {
+        if (!refresh.presented) continue;
+        warp.push_back(refresh.warp_time());
+        wake_late.push_back(refresh.latched - refresh.planned_wake);
+        summary.bad_depth_pixels += refresh.counters.bad_depth;
+        summary.unknown_object_pixels += refresh.counters.unknown_object;
+    }
+    summary.warp_ms = distribution_ms(warp);
+    summary.wake_late_ms = distribution_ms(wake_late);
+
+    std::vector<Duration> draw;
+    for (const ClientFrameRecord& frame : result.app_frames) {
+        draw.push_back(frame.times.published - frame.times.pose_sampled);
+    }
+    summary.draw_ms = distribution_ms(draw);
+    return summary;
+}
+
+void describe_live_run(Report& report, const Options& options, const LiveResult& result) {
+    const LiveSummary summary = summary_of(result);
+    report.set("display/hz", options.display_hz);
+    report.set("display/refreshes", summary.display.refreshes);
+    report.set("display/missed", summary.display.missed);
+    report.set("display/missed_own", summary.display.own);
+    report.set("display/missed_late_wakeup", summary.display.late_wakeup);
+    report.set("display/in_window", result.in_window);
+    report.set("app/hz", summary.app_hz);
+    report.set("app/frames", summary.app_frames);
+    report.set("app/dropped", summary.app_frames_dropped);
+    report.set("app/frame_ms", summary.draw_ms);
+    report.set("latency_ms/motion_to_photon", summary.motion_to_photon_ms);
+    report.set("latency_ms/frame_age", summary.frame_age_ms);
+    report.set("latency_ms/wake_up", summary.wake_late_ms);
+    report.set("warp_ms", summary.warp_ms);
+    report.set("scheduling", name_of(result.scheduling));
+    report.set("counters/bad_depth_pixels", summary.bad_depth_pixels);
+    report.set("counters/unknown_object_pixels", summary.unknown_object_pixels);
+    report.set("counters/bad_head_poses", result.bad_head_poses);
+    report.set("interrupted", result.interrupted);
+}
+
+std::string live_summary_text(const Options& options, const LiveResult& result) {
+    const LiveSummary summary = summary_of(result);
+    const double missed_percent = summary.display.refreshes == 0 ? 0.0
+                                                                 : 100.0 * static_cast<double>(summary.display.missed) /
+                                                                       static_cast<double>(summary.display.refreshes);
+    std::string text;
+    text += fmt::format("display  {} Hz, {} refreshes, {} missed ({:.2f} %): {} own, {} woken late\n",
+                        options.display_hz, summary.display.refreshes, summary.display.missed, missed_percent,
+                        summary.display.own, summary.display.late_wakeup);
+    text += fmt::format("app      {:.1f} Hz, {} frames, {} of them never shown\n", summary.app_hz, summary.app_frames,
+                        summary.app_frames_dropped);
+    text += fmt::format("latency  motion to photon {} ms, frame age {} ms\n", percentiles(summary.motion_to_photon_ms),
+                        percentiles(summary.frame_age_ms));
+    text += fmt::format("warp     {} {} ms, fill {}\n", options.method, percentiles(summary.warp_ms), options.fill);
+    text += fmt::format("priority {}\n", name_of(result.scheduling));
+    if (result.scheduling != Scheduling::fifo) text += fmt::format("         {}\n", realtime_advice());
+    return text;
+}
+
+}  // namespace lw

@@ -1,0 +1,52 @@
+#pragma once
+/// A live run: the client's thread and the server's thread on the real clock, on a window or a virtual display.
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "apps/options.h"
+#include "apps/thread_priority.h"
+#include "client_renderer/client_loop.h"
+#include "core/result.h"
+#include "frame_link/trace.h"
+#include "gl/context.h"
+#include "scene/scene.h"
+#include "warp_server/display_record.h"
+
+namespace lw {
+
+/// What a rendered frame was drawn for; enough to draw it again.
+struct SourceView {
+    Camera camera;
+    double scene_time_s = 0.0;
+};
+
+struct LiveResult {
+    std::vector<DisplayRecord> refreshes;  ///< since the first picture
+    std::vector<ClientFrameRecord> app_frames;
+    std::vector<SourceView> source_views;  ///< of rendered frame i + 1
+    std::uint64_t app_frames_shown = 0;
+    std::uint64_t bad_head_poses = 0;
+    Scheduling scheduling = Scheduling::none;
+    Camera display_camera;  ///< its pose is that of the last picture
+    bool in_window = false;
+    bool interrupted = false;
+};
+
+/// Called on the client's thread with its context current when both loops have ended: what needs the renderer.
+using AfterLiveRun = std::function<Status(SceneRenderer&, const gl::Context&, const LiveResult&)>;
+
+/// Runs for options.seconds from the first picture on, or until Ctrl-C, or until the window is closed; a window whose
+/// viewer has taken over the head stays until closed. Called on the main thread.
+///
+/// The client has its own GL display where GL is software, frames travel in CPU memory, and its threads step back
+/// unless the server got real-time priority. On a GPU a GL warp method gets the frames as textures.
+///
+/// @param trace   head motion, placed in the scene; in a window mouse and keys take over at the first touch
+/// @param window  show a window when there is a display
+[[nodiscard]] Result<LiveResult> run_live(const Options& options, const scene::Scene& scene, const Trace& trace,
+                                          bool window, const AfterLiveRun& after);
+
+}  // namespace lw

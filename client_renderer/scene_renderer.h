@@ -20,20 +20,29 @@ struct DrawCounters {
     std::uint64_t draw_calls = 0;
 };
 
+struct SceneRendererSettings {
+    bool cull = true;  ///< leave out objects outside the field of view; off, the picture is the same and slower
+};
+
 /// Belongs to one GL context and its thread: made, used and destroyed with that context current.
 class SceneRenderer {
 public:
-    /// Uploads the scene. `scene` outlives the renderer. Shader or framebuffer trouble is an error.
-    [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(const scene::Scene& scene);
+    /// Uploads the scene and compiles every shader variant it needs. `scene` is finished and outlives the renderer.
+    /// Shader or framebuffer trouble is an error.
+    [[nodiscard]] static Result<std::unique_ptr<SceneRenderer>> create(const scene::Scene& scene,
+                                                                       SceneRendererSettings settings = {});
     virtual ~SceneRenderer() = default;
 
-    /// One sample per pixel into CPU memory: colour (sRGB), depth, ids. `pixels` is resized to camera.size_px.
+    /// One sample per pixel, at its centre, into CPU memory: colour (sRGB), depth, ids. `pixels` is resized to
+    /// camera.size_px, whose sides are at least 1 and at most what the driver takes (16384 on Mesa). A picture is a
+    /// function of its arguments alone: equal ones give equal bytes.
     virtual void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) = 0;
 
     /// The same into textures of the current context, with a fence, for a server whose context shares with this one.
     [[nodiscard]] virtual TexturePixels draw_to_textures(const Camera& camera, double scene_time_s) = 0;
 
-    /// Truth: `samples_per_axis` squared samples per pixel, box-averaged in linear light. 1, 2 or 4.
+    /// Truth: `samples_per_axis` squared samples per pixel, box-averaged in linear light. 1, 2 or 4; 1 equals
+    /// draw(). Drawn in tiles where it is large, so any size up to the driver's texture limit works.
     virtual void draw_supersampled(const Camera& camera, double scene_time_s, int samples_per_axis,
                                    ColourImage& colour) = 0;
 

@@ -1,0 +1,88 @@
+#pragma once
+/// Which instances a camera sees, and the draws that show them: one indirect command per visible mesh part, however
+/// many instances it has. No GL here.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "client_renderer/frustum.h"
+#include "client_renderer/packed_vertex.h"
+#include "core/camera.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+/// A part of a mesh with one material, where it lies in the shared buffers.
+struct MeshPart {
+    int mesh = 0;
+    std::uint32_t index_count = 0;
+    std::uint32_t first_index = 0;
+    std::int32_t base_vertex = 0;
+};
+
+/// As glMultiDrawElementsIndirect reads it.
+struct DrawCommand {
+    std::uint32_t index_count = 0;
+    std::uint32_t instance_count = 0;
+    std::uint32_t first_index = 0;
+    std::int32_t base_vertex = 0;
+    std::uint32_t base_instance = 0;
+};
+static_assert(sizeof(DrawCommand) == 20);
+
+/// Commands that need the same state: a range of DrawList::commands().
+struct DrawRange {
+    int batch = 0;          ///< index into the parts given to build()
+    bool mirrored = false;  ///< fronts are clockwise: the instances' transforms turn the mesh inside out
+    std::size_t first_command = 0;
+    std::size_t command_count = 0;
+};
+
+/// Keeps its memory between frames. One thread at a time.
+class DrawList {
+public:
+    /// `scene` is finished and outlives the list; `state` is at any time.
+    DrawList(const scene::Scene& scene, const scene::SceneState& state);
+
+    /// Fills the list for `camera`. `state` is at the time to draw: movers are placed anew, static instances keep their
+    /// boxes. `batches[b]` are the parts drawn with the state of batch b. With `cull` false everything is drawn.
+    /// Transforms are composed in double relative to the eye and rounded to float once.
+    void build(const scene::SceneState& state, const Camera& camera, std::span<const std::vector<MeshPart>> batches,
+               bool cull);
+
+    [[nodiscard]] const std::vector<PackedInstance>& instances() const { return packed_; }
+    [[nodiscard]] const std::vector<DrawCommand>& commands() const { return commands_; }
+    [[nodiscard]] const std::vector<DrawRange>& ranges() const { return ranges_; }
+    [[nodiscard]] std::uint64_t objects_tested() const { return placed_.size(); }
+    [[nodiscard]] std::uint64_t objects_drawn() const { return packed_.size(); }
+    [[nodiscard]] std::uint64_t triangles_drawn() const { return triangles_drawn_; }
+
+private:
+    struct PlacedInstance {
+        const scene::Instance* instance = nullptr;
+        glm::dmat4 world_from_object{1.0};
+        scene::Bounds bounds_world;
+        bool mirrored = false;
+    };
+    struct VisibleRange {
+        std::uint32_t first = 0;
+        std::uint32_t count = 0;
+    };
+
+    void place(PlacedInstance& placed, const scene::SceneState& state) const;
+    void collect_visible(const Camera& camera, bool cull);
+
+    const scene::Scene& scene_;
+    std::vector<PlacedInstance> placed_;        ///< by mesh
+    std::vector<std::uint32_t> first_of_mesh_;  ///< into placed_, one more than there are meshes
+    std::vector<std::uint32_t> movers_;         ///< into placed_
+    std::vector<VisibleRange> visible_[2];      ///< by mesh; [1] the mirrored ones
+    std::vector<PackedInstance> packed_;
+    std::vector<PackedInstance> packed_mirrored_;  ///< of the mesh being collected
+    std::vector<DrawCommand> commands_;
+    std::vector<DrawRange> ranges_;
+    std::uint64_t triangles_drawn_ = 0;
+};
+
+}  // namespace lw

@@ -1,0 +1,13 @@
+#pragma once
+/// A camera and the sun as the shaders read them.
+
+#include "core/camera.h"
+#include "scene/scene.h"
+#include "shaders/client_blocks.h"
+
+namespace lw {
+
+/// Composed in double, rounded once. Pure, any thread.
+[[nodiscard]] shader::FrameBlock frame_block(const Camera& camera, const scene::Sun& sun);
+
+}  // namespace lw

@@ -1,0 +1,66 @@
+#pragma once
+/// A scene's meshes, materials and textures in GL buffers, grouped into batches of equal state.
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "client_renderer/draw_list.h"
+#include "client_renderer/surface_features.h"
+#include "client_renderer/texture_store.h"
+#include "core/result.h"
+#include "gl/program.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+/// What one draw call shares: program, material, textures.
+struct SurfaceBatch {
+    SurfaceFeatures features;
+    int material = scene::kNone;      ///< kNone: glTF's default material
+    std::ptrdiff_t block_offset = 0;  ///< of its MaterialBlock in the material buffer
+    const gl::Program* program = nullptr;
+};
+
+/// Immutable once made. Belongs to one GL context and its thread.
+class GpuScene {
+public:
+    /// Uploads meshes, materials and textures and compiles the shader variants that the materials need. `scene` is
+    /// finished and outlives it. A shader that does not compile is an error.
+    [[nodiscard]] static Result<std::unique_ptr<GpuScene>> create(const scene::Scene& scene);
+
+    [[nodiscard]] const std::vector<SurfaceBatch>& batches() const { return batches_; }
+    /// Mesh parts by batch, as DrawList takes them.
+    [[nodiscard]] const std::vector<std::vector<MeshPart>>& parts() const { return parts_; }
+
+    [[nodiscard]] const gl::Buffer& surface_vertices() const { return surface_vertices_; }
+    [[nodiscard]] const gl::Buffer& texture_vertices() const { return texture_vertices_; }
+    [[nodiscard]] const gl::Buffer& indices() const { return indices_; }
+
+    /// Makes program, material block, textures and face culling current for a batch.
+    void bind(const SurfaceBatch& batch) const;
+
+private:
+    explicit GpuScene(const scene::Scene& scene) : scene_{scene}, textures_{scene} {}
+
+    void upload_meshes();
+    void collect_batches();
+    void upload_materials();
+    [[nodiscard]] Status compile_programs();
+    [[nodiscard]] const scene::Material& material_of(const SurfaceBatch& batch) const;
+
+    const scene::Scene& scene_;
+    scene::Material default_material_;
+    TextureStore textures_;
+    gl::Buffer surface_vertices_;
+    gl::Buffer texture_vertices_;
+    gl::Buffer indices_;
+    gl::Buffer materials_;
+    std::vector<std::uint32_t> first_vertex_;  ///< by mesh
+    std::vector<std::uint32_t> first_index_;   ///< by mesh
+    std::map<SurfaceFeatures, gl::Program> programs_;
+    std::vector<SurfaceBatch> batches_;
+    std::vector<std::vector<MeshPart>> parts_;
+};
+
+}  // namespace lw

@@ -1,0 +1,67 @@
+#include "client_renderer/lighting_pass.h"
+
+namespace lw {
+
+namespace {
+
+gl::Buffer make_empty_buffer() {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    return gl::Buffer{id};
+}
+
+void bind_texture(int unit, const gl::Texture& texture) {
+    glBindTextureUnit(static_cast<GLuint>(unit), texture.id());
+    glBindSampler(static_cast<GLuint>(unit), 0);
+}
+
+}  // namespace
+
+Result<LightingPass> LightingPass::create(bool point_lights) {
+    LightingPass pass;
+    pass.point_lights_ = point_lights;
+    auto surfaces = gl::Program::create({"client/fullscreen.vert", "client/lighting.frag"},
+                                        point_lights ? "#define POINT_LIGHTS\n" : "");
+    if (!surfaces.ok()) return surfaces.error();
+    auto sky = gl::Program::create({"client/fullscreen.vert", "client/sky.frag"});
+    if (!sky.ok()) return sky.error();
+    pass.surfaces_ = std::move(*surfaces);
+    pass.sky_ = std::move(*sky);
+    pass.light_block_ = make_empty_buffer();
+    pass.tile_masks_ = make_empty_buffer();
+    pass.no_attributes_ = gl::make_vertex_array();
+    return pass;
+}
+
+void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights) {
+    if (point_lights_) {
+        glNamedBufferData(light_block_.id(), sizeof(shader::LightsBlock), &lights.block(), GL_STREAM_DRAW);
+        glNamedBufferData(tile_masks_.id(), static_cast<GLsizeiptr>(lights.masks().size() * sizeof(glm::uvec2)),
+                          lights.masks().data(), GL_STREAM_DRAW);
+        glBindBufferBase(GL_UNIFORM_BUFFER, shader::kBindingLights, light_block_.id());
+        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::kBindingTiles, tile_masks_.id());
+    }
+    targets.lit.bind();
+    glBindVertexArray(no_attributes_.id());
+    bind_texture(shader::kUnitGAlbedo, targets.albedo_roughness);
+    bind_texture(shader::kUnitGNormal, targets.normal);
+    bind_texture(shader::kUnitGEmissive, targets.emissive_metallic);
+    bind_texture(shader::kUnitGDepth, targets.depth);
+
+    // The triangle lies at depth 0. Depth is read by test and by fetch and never written here, so this is no feedback.
+    glEnable(GL_DEPTH_TEST);
+    glDepthMask(GL_FALSE);
+    glDepthFunc(GL_LESS);
+    surfaces_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glDepthFunc(GL_EQUAL);
+    sky_.use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+
+    glDepthFunc(GL_GEQUAL);
+    glDepthMask(GL_TRUE);
+    glDisable(GL_DEPTH_TEST);
+    glBindVertexArray(0);
+}
+
+}  // namespace lw

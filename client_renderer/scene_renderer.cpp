@@ -1,0 +1,210 @@
+#include "client_renderer/scene_renderer.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "client_renderer/draw_list.h"
+#include "client_renderer/frame_block.h"
+#include "client_renderer/gbuffer_pass.h"
+#include "client_renderer/gpu_scene.h"
+#include "client_renderer/image_passes.h"
+#include "client_renderer/light_tiles.h"
+#include "client_renderer/lighting_pass.h"
+#include "client_renderer/render_targets.h"
+
+namespace lw {
+
+namespace {
+
+// Supersampled pictures are drawn in tiles of at most this many samples a side: 2048 squared samples take 110 MB.
+constexpr int kMaxTileSamples = 2048;
+
+/// The part of a camera's picture from pixel `first_px` on.
+Camera cropped(const Camera& camera, glm::ivec2 first_px, glm::ivec2 size_px) {
+    const FovTangents& fov = camera.fov;
+    const double tan_per_px_x = (fov.right - fov.left) / camera.size_px.x;
+    const double tan_per_px_y = (fov.up - fov.down) / camera.size_px.y;
+    Camera part = camera;
+    part.size_px = size_px;
+    part.fov = {fov.left + tan_per_px_x * first_px.x, fov.left + tan_per_px_x * (first_px.x + size_px.x),
+                fov.up - tan_per_px_y * (first_px.y + size_px.y), fov.up - tan_per_px_y * first_px.y};
+    return part;
+}
+
+void copy_into(const ColourImage& tile, glm::ivec2 first_px, ColourImage& colour) {
+    const glm::ivec2 size_px = glm::min(tile.size_px(), colour.size_px() - first_px);
+    for (int y = 0; y < size_px.y; ++y) {
+        const std::span<const Rgba8> from = tile.row(y).first(static_cast<std::size_t>(size_px.x));
+        std::ranges::copy(from, colour.row(first_px.y + y).begin() + first_px.x);
+    }
+}
+
+class DeferredSceneRenderer final : public SceneRenderer {
+public:
+    DeferredSceneRenderer(const scene::Scene& scene, SceneRendererSettings settings,
+                          std::unique_ptr<GpuScene> gpu_scene, LightingPass lighting, ImagePasses images)
+        : scene_{scene},
+          settings_{settings},
+          state_{scene},
+          gpu_scene_{std::move(gpu_scene)},
+          gbuffer_{*gpu_scene_},
+          lighting_{std::move(lighting)},
+          images_{std::move(images)},
+          frame_block_{gl::make_buffer(sizeof(shader::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT)} {
+        state_.set_time(0.0);
+        draw_list_.emplace(scene_, state_);
+    }
+
+    [[nodiscard]] Status warm_up() {
+        Camera camera;
+        camera.size_px = {kWarmUpPx, kWarmUpPx};
+        auto targets = RenderTargets::create(camera.size_px);
+        if (!targets.ok()) return targets.error();
+        bind_frame(camera);
+        gbuffer_.warm_up(**targets);
+        lights_.build(scene_.point_lights, camera);
+        lighting_.draw(**targets, lights_);
+        images_.average((*targets)->colour, 2, gl::Texture{camera.size_px / 2, GL_SRGB8_ALPHA8});
+        images_.copy_depth((*targets)->depth, gl::Texture{camera.size_px, GL_R32F});
+        glFinish();
+        return Done{};
+    }
+
+    void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) override {
+        counters_ = {};
+        const RenderTargets& targets = render(camera, scene_time_s);
+        pixels.colour.resize(camera.size_px);
+        pixels.depth.resize(camera.size_px);
+        pixels.object_id.resize(camera.size_px);
+        targets.colour.download(GL_RGBA, GL_UNSIGNED_BYTE, pixels.colour.size_bytes(), pixels.colour.pixels().data());
+        targets.depth.download(GL_DEPTH_COMPONENT, GL_FLOAT, pixels.depth.size_bytes(), pixels.depth.pixels().data());
+        targets.object_id.download(GL_RED_INTEGER, GL_UNSIGNED_SHORT, pixels.object_id.size_bytes(),
+                                   pixels.object_id.pixels().data());
+    }
+
+    TexturePixels draw_to_textures(const Camera& camera, double scene_time_s) override {
+        counters_ = {};
+        const RenderTargets& targets = render(camera, scene_time_s);
+        TexturePixels pixels{gl::Texture{camera.size_px, GL_SRGB8_ALPHA8},
+                             gl::Texture{camera.size_px, GL_R32F},
+                             gl::Texture{camera.size_px, GL_R16UI},
+                             {}};
+        copy(targets.colour, pixels.colour);
+        copy(targets.object_id, pixels.object_id);
+        images_.copy_depth(targets.depth, pixels.depth);
+        pixels.rendered = gl::Fence::insert();
+        return pixels;
+    }
+
+    void draw_supersampled(const Camera& camera, double scene_time_s, int samples_per_axis,
+                           ColourImage& colour) override {
+        LW_CHECK(samples_per_axis == 1 || samples_per_axis == 2 || samples_per_axis == 4,
+                 fmt::format("{} samples per axis", samples_per_axis));
+        counters_ = {};
+        colour.resize(camera.size_px);
+        if (samples_per_axis == 1) {
+            const RenderTargets& targets = render(camera, scene_time_s);
+            targets.colour.download(GL_RGBA, GL_UNSIGNED_BYTE, colour.size_bytes(), colour.pixels().data());
+            return;
+        }
+        const int max_tile_px = kMaxTileSamples / samples_per_axis;
+        const glm::ivec2 tile_count = (camera.size_px + max_tile_px - 1) / max_tile_px;
+        const glm::ivec2 tile_px = (camera.size_px + tile_count - 1) / tile_count;
+        const gl::Texture averaged{tile_px, GL_SRGB8_ALPHA8};
+        ColourImage tile{tile_px};
+        for (int y = 0; y < camera.size_px.y; y += tile_px.y) {
+            for (int x = 0; x < camera.size_px.x; x += tile_px.x) {
+                Camera part = cropped(camera, {x, y}, tile_px);
+                part.size_px *= samples_per_axis;
+                images_.average(render(part, scene_time_s).colour, samples_per_axis, averaged);
+                averaged.download(GL_RGBA, GL_UNSIGNED_BYTE, tile.size_bytes(), tile.pixels().data());
+                copy_into(tile, {x, y}, colour);
+            }
+        }
+    }
+
+    void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
+        state_.set_time(scene_time_s);
+        state_.mover_placements(transforms);
+    }
+
+    [[nodiscard]] const DrawCounters& counters() const override { return counters_; }
+
+private:
+    static constexpr int kWarmUpPx = 64;
+
+    static void copy(const gl::Texture& from, const gl::Texture& to) {
+        glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.size_px().x,
+                           to.size_px().y, 1);
+    }
+
+    void bind_frame(const Camera& camera) {
+        const shader::FrameBlock block = frame_block(camera, scene_.sun);
+        glNamedBufferSubData(frame_block_.id(), 0, sizeof block, &block);
+        glBindBufferBase(GL_UNIFORM_BUFFER, shader::kBindingFrame, frame_block_.id());
+    }
+
+    // One sample per pixel into the targets of this size; they are drawn over by the next call.
+    const RenderTargets& render(const Camera& camera, double scene_time_s) {
+        const RenderTargets& targets = targets_of(camera.size_px);
+        state_.set_time(scene_time_s);
+        draw_list_->build(state_, camera, gpu_scene_->parts(), settings_.cull);
+        bind_frame(camera);
+        counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
+        lights_.build(scene_.point_lights, camera);
+        lighting_.draw(targets, lights_);
+        counters_.objects_tested += draw_list_->objects_tested();
+        counters_.objects_drawn += draw_list_->objects_drawn();
+        counters_.triangles_drawn += draw_list_->triangles_drawn();
+        return targets;
+    }
+
+    // Keeps the last two sizes: a run alternates between at most a view and its truth's tiles.
+    const RenderTargets& targets_of(glm::ivec2 size_px) {
+        const auto found =
+            std::ranges::find_if(targets_, [&](const auto& targets) { return targets->colour.size_px() == size_px; });
+        if (found != targets_.end()) {
+            std::rotate(targets_.begin(), found, found + 1);
+            return *targets_.front();
+        }
+        LW_CHECK(size_px.x >= 1 && size_px.y >= 1, fmt::format("{}x{} pixels", size_px.x, size_px.y));
+        if (targets_.size() == 2) targets_.pop_back();
+        auto made = RenderTargets::create(size_px);
+        LW_CHECK(made.ok(), made.error().message());
+        targets_.insert(targets_.begin(), std::move(*made));
+        return *targets_.front();
+    }
+
+    const scene::Scene& scene_;
+    SceneRendererSettings settings_;
+    scene::SceneState state_;
+    std::optional<DrawList> draw_list_;
+    std::unique_ptr<GpuScene> gpu_scene_;
+    GBufferPass gbuffer_;
+    LightingPass lighting_;
+    ImagePasses images_;
+    LightTiles lights_;
+    gl::Buffer frame_block_;
+    std::vector<std::unique_ptr<RenderTargets>> targets_;
+    DrawCounters counters_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(const scene::Scene& scene,
+                                                             SceneRendererSettings settings) {
+    auto gpu_scene = GpuScene::create(scene);
+    if (!gpu_scene.ok()) return gpu_scene.error();
+    auto lighting = LightingPass::create(!scene.point_lights.empty());
+    if (!lighting.ok()) return lighting.error();
+    auto images = ImagePasses::create();
+    if (!images.ok()) return images.error();
+    auto renderer = std::make_unique<DeferredSceneRenderer>(scene, settings, std::move(*gpu_scene),
+                                                            std::move(*lighting), std::move(*images));
+    const Status warm = renderer->warm_up();
+    if (!warm.ok()) return warm.error();
+    return std::unique_ptr<SceneRenderer>{std::move(renderer)};
+}
+
+}  // namespace lw

@@ -62,7 +62,7 @@ public:
             has_left_ = true;
         } else if (has_left_ && are_of_one_frame(left_, row)) {
             has_left_ = false;
-            rows_.add(left_.time_ms * 1e-3, placed_upright(scene_, scene_from_head(left_, row)));
+            rows_.add(left_.time_ms / 1e3, placed_upright(scene_, scene_from_head(left_, row)));
         } else {
             end();
             rows_.drop(kAlone);

@@ -170,7 +170,7 @@ private:
         const auto stamped = parse_pose_stamped(message);
         if (!stamped) return rows_.drop("not a PoseStamped message");
         if (!first_ns_) first_ns_ = stamped->stamp_ns;
-        rows_.add(static_cast<double>(stamped->stamp_ns - *first_ns_) * 1e-9, world_from_head(stamped->pose));
+        rows_.add(static_cast<double>(stamped->stamp_ns - *first_ns_) / 1e9, world_from_head(stamped->pose));
     }
 
     TraceRows rows_;
@@ -217,7 +217,7 @@ Result<Trace> read_pose_stamped_csv_trace(const TraceFile& file) {
         }
         if (!first_ns) first_ns = stamp_ns;
         const Pose world_from_body{{v[1], v[2], v[3]}, {v[7], v[4], v[5], v[6]}};
-        rows.add(static_cast<double>(*stamp_ns - *first_ns) * 1e-9, world_from_head(world_from_body));
+        rows.add(static_cast<double>(*stamp_ns - *first_ns) / 1e9, world_from_head(world_from_body));
         return true;
     });
     return rows.finish(file.name(), file.where());

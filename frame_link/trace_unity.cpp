@@ -9,7 +9,7 @@ namespace {
 constexpr std::size_t kColumns = 16;   // ticks local, ticks UTC, year .. ms, x, y, z, qx, qy, qz, qw
 constexpr std::size_t kUtcColumn = 1;  // local ticks jump when daylight saving begins
 constexpr std::size_t kPoseColumn = 9;
-constexpr double kTick_s = 1e-7;
+constexpr double kTicks_per_s = 1e7;
 // Ticks of 100 ns since the year 1: these are the years 1600 and 2900, which tells such a log from any other numbers.
 constexpr std::int64_t kFirstTick = 504'000'000'000'000'000;
 constexpr std::int64_t kLastTick = 914'000'000'000'000'000;
@@ -46,7 +46,7 @@ Result<Trace> read_unity_trace(const TraceFile& file) {
             v[i] = *number;
         }
         if (!first_ticks) first_ticks = ticks;
-        rows.add(static_cast<double>(*ticks - *first_ticks) * kTick_s, right_handed(v));
+        rows.add(static_cast<double>(*ticks - *first_ticks) / kTicks_per_s, right_handed(v));
         return true;
     });
     return rows.finish(file.name(), file.where());

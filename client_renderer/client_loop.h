@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "client_renderer/layer_pool.h"
 #include "client_renderer/scene_renderer.h"
 #include "core/clock.h"
 #include "frame_link/frame_exchange.h"
@@ -33,24 +34,31 @@ struct ClientFrameRecord {
 };
 
 /// Runs on the thread that calls run(), with the renderer's context current there.
+///
+/// A frame published at P and replaced one frame period later is on the display from P to P + period; its middle is
+/// what the client draws for: time of sampling + latency from sampling to publishing + half a period. Latency and
+/// period are those of the past frames, smoothed; before the first frame they count as zero.
 class ClientLoop {
 public:
-    /// References outlive the loop. Scene time is seconds of the clock.
+    /// References outlive the loop. Scene time is seconds of the clock. `prepare` may be empty.
     ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed& head, FrameExchange& exchange,
                std::unique_ptr<HeadPosePredictor> predictor, PrepareLayer prepare, ClientSettings settings);
 
-    /// Draws and publishes until request_stop().
+    /// Draws and publishes until request_stop(), at most max_hz times a second.
     void run();
     /// One frame: what run() repeats.
     void draw_and_publish();
 
-    /// Any thread.
+    /// Any thread. The frame under way is still published.
     void request_stop() { stop_.store(true, std::memory_order_relaxed); }
 
-    /// After run() has returned.
+    /// Every published frame. After run() has returned.
     [[nodiscard]] const std::vector<ClientFrameRecord>& records() const { return records_; }
 
 private:
+    [[nodiscard]] TimePoint middle_of_display_life(TimePoint sampled) const;
+    void learn_timing(TimePoint sampled, TimePoint published);
+
     SceneRenderer& renderer_;
     Clock& clock_;
     const HeadPoseFeed& head_;
@@ -58,9 +66,11 @@ private:
     std::unique_ptr<HeadPosePredictor> predictor_;
     PrepareLayer prepare_;
     ClientSettings settings_;
+    LayerPool layers_;
     std::atomic<bool> stop_{false};
     std::vector<ClientFrameRecord> records_;
-    Duration frame_time_{};  ///< smoothed time from sampling to publishing
+    Duration latency_{};  ///< smoothed time from sampling to publishing
+    Duration period_{};   ///< smoothed time between publications
 };
 
 }  // namespace lw

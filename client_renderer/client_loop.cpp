@@ -1,0 +1,85 @@
+#include "client_renderer/client_loop.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace lw {
+
+namespace {
+
+// Frames differ little from one to the next: a third of the newest follows a change within a few frames and halves the
+// jitter.
+Duration smoothed(Duration past, Duration newest) {
+    return past == Duration::zero() ? newest : past + (newest - past) / 3;
+}
+
+}  // namespace
+
+ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed& head, FrameExchange& exchange,
+                       std::unique_ptr<HeadPosePredictor> predictor, PrepareLayer prepare, ClientSettings settings)
+    : renderer_{renderer},
+      clock_{clock},
+      head_{head},
+      exchange_{exchange},
+      predictor_{std::move(predictor)},
+      prepare_{std::move(prepare)},
+      settings_{settings} {
+    LW_CHECK(predictor_ != nullptr, "a client without a predictor");
+    records_.reserve(4096);  // minutes of frames: growing would cost a frame now and then
+}
+
+void ClientLoop::run() {
+    TimePoint next_start = clock_.now();
+    while (!stop_.load(std::memory_order_relaxed)) {
+        draw_and_publish();
+        if (settings_.max_hz <= 0.0) continue;
+        // A late frame starts the next at once, and the rhythm anew.
+        next_start = std::max(next_start + from_seconds(1.0 / settings_.max_hz), clock_.now());
+        clock_.sleep_until(next_start);
+    }
+}
+
+void ClientLoop::draw_and_publish() {
+    const TimePoint sampled = clock_.now();
+    const TimePoint target = settings_.predict_source_pose ? middle_of_display_life(sampled) : sampled;
+    const PredictedPose head = predictor_->predict(head_, sampled, target);
+
+    auto layer = layers_.acquire();
+    layer->camera = settings_.camera;
+    layer->camera.world_from_eye = head.world_from_head;
+    layer->pose_sampled = head.newest_sample;
+    layer->scene_time_s = seconds_of(target);
+
+    ClientFrameRecord record;
+    record.index = records_.size() + 1;
+    record.times.pose_sampled = head.newest_sample;
+    record.times.render_begin = clock_.now();
+    if (settings_.textures) {
+        layer->pixels = renderer_.draw_to_textures(layer->camera, layer->scene_time_s);
+    } else {
+        renderer_.draw(layer->camera, layer->scene_time_s, layer->cpu());
+    }
+    record.counters = renderer_.counters();
+    renderer_.mover_placements(layer->scene_time_s, layer->movers);
+    record.times.render_end = clock_.now();
+    if (prepare_) prepare_(*layer);
+
+    auto frame = std::make_shared<RenderedFrame>();
+    frame->index = record.index;
+    frame->layers.push_back(std::move(layer));
+    record.times.published = clock_.now();
+    frame->times = record.times;
+    exchange_.publish(std::move(frame));
+    learn_timing(sampled, record.times.published);
+    records_.push_back(record);
+}
+
+TimePoint ClientLoop::middle_of_display_life(TimePoint sampled) const { return sampled + latency_ + period_ / 2; }
+
+void ClientLoop::learn_timing(TimePoint sampled, TimePoint published) {
+    latency_ = smoothed(latency_, published - sampled);
+    // The first frame's period is not known yet: as fast as it can, a frame lasts as long as it takes.
+    period_ = smoothed(period_, records_.empty() ? published - sampled : published - records_.back().times.published);
+}
+
+}  // namespace lw

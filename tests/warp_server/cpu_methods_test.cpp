@@ -34,8 +34,10 @@ class DepthMethod : public ::testing::TestWithParam<std::string> {};
 /// Those that show each source pixel's colour unmixed, so that an index in the colour survives.
 class PointMethod : public ::testing::TestWithParam<std::string> {};
 
-INSTANTIATE_TEST_SUITE_P(All, CpuMethod, ::testing::Values("stale", "rotation", "splat", "reference"), test_name_of);
-INSTANTIATE_TEST_SUITE_P(All, DepthMethod, ::testing::Values("splat", "reference"), test_name_of);
+INSTANTIATE_TEST_SUITE_P(All, CpuMethod,
+                         ::testing::Values("stale", "rotation", "splat", "inverse", "surface", "reference"),
+                         test_name_of);
+INSTANTIATE_TEST_SUITE_P(All, DepthMethod, ::testing::Values("splat", "surface", "reference"), test_name_of);
 INSTANTIATE_TEST_SUITE_P(All, PointMethod, ::testing::Values("splat", "reference"), test_name_of);
 
 // Identity.

@@ -14,7 +14,10 @@ using MadeMethod = Result<std::unique_ptr<WarpMethod>>;
 [[nodiscard]] MadeMethod make_stale_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_rotation_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_points_method(std::string label, const MethodSettings& settings);
+[[nodiscard]] MadeMethod make_mesh_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_splat_method(std::string label, const MethodSettings& settings);
+[[nodiscard]] MadeMethod make_inverse_method(std::string label, const MethodSettings& settings);
+[[nodiscard]] MadeMethod make_surface_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_reference_method(std::string label, const MethodSettings& settings);
 
 /// Value of a whole-number setting, `fallback` when absent.

@@ -26,8 +26,7 @@ struct SplatInput {
 /// Writes the points of the source rows `source_rows` into `keys`, which has the target's size. Background of object 0
 /// is left to resolve_keys. Bad pixels are counted. Threads may run it at once on keys of their own.
 /// @return the rows of `keys` that may have been written
-RowRange splat_points(const SplatInput& input, RowRange source_rows, Image<WinnerKey>& keys,
-                                    WarpCounters& counters);
+RowRange splat_points(const SplatInput& input, RowRange source_rows, Image<WinnerKey>& keys, WarpCounters& counters);
 
 /// Where the background comes from: a target pixel that no point reached shows the source pixel in its direction when
 /// that one is background.

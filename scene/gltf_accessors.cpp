@@ -80,7 +80,7 @@ std::vector<std::uint8_t> gather(GltfSource& source, int accessor, std::size_t e
     const tinygltf::Accessor& access = accessor_at(source, accessor);
     const std::string place = accessor_place(accessor);
     std::vector<std::uint8_t> elements(access.count * element_bytes);
-    if (access.bufferView >= 0) {
+    if (access.bufferView >= 0 && source.accessors_without_view.count(accessor) == 0) {
         const std::size_t stride = source.model.bufferViews[static_cast<std::size_t>(access.bufferView)].byteStride;
         const Strided from =
             strided_view(source, access.bufferView, access.byteOffset, stride, access.count, element_bytes, place);
@@ -184,6 +184,7 @@ std::vector<std::uint32_t> read_indices(GltfSource& source, int accessor) {
 std::span<const std::uint8_t> buffer_bytes(const GltfSource& source, int buffer, std::uint64_t offset,
                                            std::uint64_t length, const std::string& place) {
     const std::span<const std::uint8_t> bytes = source.buffers[static_cast<std::size_t>(buffer)].view;
+    if (bytes.data() == nullptr) refuse(fmt::format("buffer {} has no data", buffer), place);
     if (offset > bytes.size() || length > bytes.size() - offset) {
         refuse(fmt::format("bytes {} to {} lie outside of buffer {} with {} bytes", offset, offset + length, buffer,
                            bytes.size()),

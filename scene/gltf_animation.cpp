@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "scene/gltf_accessors.h"
 
@@ -87,13 +89,11 @@ double length_of(const std::vector<AnimationChannel>& channels) {
     return length_s > 0.0 ? length_s : 1.0;
 }
 
-bool already_animated(const Scene& scene, const AnimationChannel& channel) {
-    return std::any_of(scene.channels.begin(), scene.channels.end(), [&](const AnimationChannel& other) {
-        return other.node == channel.node && other.property == channel.property;
-    });
-}
+/// Node and property of the channels that a scene has.
+using AnimatedPlaces = std::set<std::pair<int, AnimatedProperty>>;
 
-void import_animation(GltfSource& source, std::size_t index, const std::vector<int>& scene_node, Scene& scene) {
+void import_animation(GltfSource& source, std::size_t index, const std::vector<int>& scene_node, AnimatedPlaces& taken,
+                      Scene& scene) {
     const tinygltf::Animation& animation = source.model.animations[index];
     std::vector<AnimationChannel> channels;
     for (std::size_t i = 0; i < animation.channels.size(); ++i) {
@@ -116,7 +116,7 @@ void import_animation(GltfSource& source, std::size_t index, const std::vector<i
     for (AnimationChannel& channel : channels) {
         channel.loop_s = length_s;
         // Files hold animations to choose from (walk, run); we play the first that moves a node.
-        if (already_animated(scene, channel)) {
+        if (!taken.emplace(channel.node, channel.property).second) {
             warn_once(source, "of several animations of a node the first one plays");
             continue;
         }
@@ -127,7 +127,10 @@ void import_animation(GltfSource& source, std::size_t index, const std::vector<i
 }  // namespace
 
 void import_animations(GltfSource& source, const std::vector<int>& scene_node, Scene& scene) {
-    for (std::size_t i = 0; i < source.model.animations.size(); ++i) import_animation(source, i, scene_node, scene);
+    AnimatedPlaces taken;
+    for (std::size_t i = 0; i < source.model.animations.size(); ++i) {
+        import_animation(source, i, scene_node, taken, scene);
+    }
 }
 
 }  // namespace lw::scene

@@ -164,6 +164,22 @@ void read_directions(PrimitiveReader& reader, bool needs_tangents, std::vector<V
     }
 }
 
+/// Exporters let all primitives of a mesh refer to one set of vertices; each keeps its own part.
+void drop_unused(std::vector<Vertex>& vertices, std::vector<std::uint32_t>& indices) {
+    constexpr std::uint32_t kUnused = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> new_index(vertices.size(), kUnused);
+    for (const std::uint32_t index : indices) new_index[index] = 0;
+    std::uint32_t kept = 0;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        if (new_index[i] == kUnused) continue;
+        vertices[kept] = vertices[i];
+        new_index[i] = kept++;
+    }
+    if (kept == vertices.size()) return;
+    vertices.resize(kept);
+    for (std::uint32_t& index : indices) index = new_index[index];
+}
+
 void append(const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices, int material, Mesh& mesh) {
     const auto first_vertex = static_cast<std::uint32_t>(mesh.vertices.size());
     Primitive primitive;
@@ -189,11 +205,9 @@ void import_primitive(GltfSource& source, const tinygltf::Primitive& primitive, 
     const bool has_normals = primitive.attributes.count("NORMAL") != 0;
     const std::size_t corners = 3 * reader.max_triangles();
     const std::size_t vertex_count = has_normals ? reader.vertex_count() : std::max(reader.vertex_count(), corners);
-    // Held twice for a moment: as this primitive and inside the mesh, whose growing vectors may double.
-    source.budget.charge(vertex_count, sizeof(Vertex), place);
-    source.budget.charge(corners, sizeof(std::uint32_t), place);
-    const TemporaryCharge second_vertices{source.budget, vertex_count, 2 * sizeof(Vertex), place};
-    const TemporaryCharge second_indices{source.budget, corners, 2 * sizeof(std::uint32_t), place};
+    // Besides what the mesh keeps: this primitive's own copy, and its vertices before they are split into corners.
+    const TemporaryCharge work_vertices{source.budget, vertex_count, 2 * sizeof(Vertex), place};
+    const TemporaryCharge work_indices{source.budget, corners, 2 * sizeof(std::uint32_t), place};
 
     std::vector<Vertex> vertices = read_positions(reader);
     std::vector<std::uint32_t> indices = reader.triangles();
@@ -203,6 +217,9 @@ void import_primitive(GltfSource& source, const tinygltf::Primitive& primitive, 
     const bool needs_tangents = primitive.material >= 0 &&
                                 materials[static_cast<std::size_t>(primitive.material)].normal_texture.image != kNone;
     read_directions(reader, needs_tangents, vertices, indices, findings);
+    drop_unused(vertices, indices);
+    source.budget.charge(vertices.size(), sizeof(Vertex), place);
+    source.budget.charge(indices.size(), sizeof(std::uint32_t), place);
     append(vertices, indices, primitive.material, mesh);
 }
 

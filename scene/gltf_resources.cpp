@@ -68,13 +68,19 @@ fs::path path_inside(const std::string& uri, const fs::path& folder, const std::
     return target;
 }
 
+/// "data:[media type][;base64],DATA"; without base64 the data is percent-encoded.
 std::vector<std::uint8_t> read_data_uri(const std::string& uri, MemoryBudget& budget, const std::string& place) {
-    constexpr std::string_view kMarker = ";base64,";
-    const std::size_t marker = uri.substr(0, 128).find(kMarker);
-    if (marker == std::string::npos) refuse("a data URI is not base64", place);
-    const std::string_view text = std::string_view{uri}.substr(marker + kMarker.size());
-    budget.charge(text.size() / 4 * 3 + 3, place);
-    return decode_base64(text, place);
+    const std::size_t comma = uri.substr(0, 256).find(',');
+    if (comma == std::string::npos) refuse("a data URI without data", place);
+    const std::string_view head = std::string_view{uri}.substr(0, comma);
+    const std::string_view text = std::string_view{uri}.substr(comma + 1);
+    budget.charge(text.size(), place);
+    constexpr std::string_view kMarker = ";base64";
+    if (head.size() >= kMarker.size() && head.substr(head.size() - kMarker.size()) == kMarker) {
+        return decode_base64(text, place);
+    }
+    const std::string decoded = percent_decoded(text);
+    return {decoded.begin(), decoded.end()};
 }
 
 }  // namespace

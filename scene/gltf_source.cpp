@@ -1,6 +1,7 @@
 #include "scene/gltf_source.h"
 
 #include <algorithm>
+#include <set>
 
 #include "core/image_io.h"
 #include "scene/gltf_schema.h"
@@ -60,17 +61,32 @@ void charge_animations(const json& root, MemoryBudget& budget) {
     }
 }
 
-/// tinygltf refuses a primitive whose index accessor has no buffer view, which is what Draco files have, and does not
-/// look at the view otherwise. Draco primitives take their indices from the compressed data, so any view will do.
-void patch_draco(json& root) {
+/// tinygltf refuses a primitive whose index accessor has no buffer view: Draco's, whose indices are in the compressed
+/// data, and sparse or all-zero ones. Any view pleases it; which accessors have none is remembered.
+void patch_index_accessors(json& root, std::set<int>& accessors_without_view) {
     if (!root.contains("meshes")) return;
-    for (json& mesh : root["meshes"]) {
-        for (json& primitive : mesh["primitives"]) {
-            static const json::json_pointer kDraco{"/extensions/KHR_draco_mesh_compression"};
-            if (!primitive.contains(kDraco) || !primitive.contains("indices")) continue;
-            json& accessor = root["accessors"][primitive["indices"].get<std::size_t>()];
-            if (!accessor.contains("bufferView")) accessor["bufferView"] = primitive.at(kDraco).at("bufferView");
+    for (const json& mesh : root["meshes"]) {
+        for (const json& primitive : mesh["primitives"]) {
+            if (!primitive.contains("indices")) continue;
+            const int index = primitive["indices"].get<int>();
+            json& accessor = root["accessors"][static_cast<std::size_t>(index)];
+            if (accessor.contains("bufferView")) continue;
+            accessor["bufferView"] = 0;
+            accessors_without_view.insert(index);
         }
+    }
+    if (accessors_without_view.empty()) return;
+    json& views = root["bufferViews"];
+    if (views.empty()) views.push_back({{"buffer", 0}, {"byteLength", 1}});
+}
+
+/// tinygltf refuses accessors of unknown types even where nothing uses them. As matrices, which nothing here reads,
+/// they are refused when they are used.
+void patch_accessor_types(json& root) {
+    static const std::set<std::string> kTypes = {"SCALAR", "VEC2", "VEC3", "VEC4", "MAT2", "MAT3", "MAT4"};
+    if (!root.contains("accessors")) return;
+    for (json& accessor : root["accessors"]) {
+        if (kTypes.count(accessor["type"].get_ref<const std::string&>()) == 0) accessor["type"] = "MAT2";
     }
 }
 
@@ -111,7 +127,8 @@ void open_gltf(const std::filesystem::path& path, GltfSource& source) {
                                   source.folder, source.budget);
     charge_model(root, source.budget);
     charge_animations(root, source.budget);
-    patch_draco(root);
+    patch_index_accessors(root, source.accessors_without_view);
+    patch_accessor_types(root);
     parse_model(root, source);
 }
 

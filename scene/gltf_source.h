@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,7 @@ struct GltfSource {
     GltfDocument document;  ///< owns what `buffers` may point into
     nlohmann::json images;  ///< checked; decoded by us, because tinygltf does not check what it hands to its decoder
     tinygltf::Model model;  ///< without buffers, images, cameras and skins
+    std::set<int> accessors_without_view;  ///< their bufferView in the model means nothing
     std::vector<GltfBytes> buffers;
     std::map<int, std::vector<std::uint8_t>> decoded_views;  ///< EXT_meshopt_compression, by buffer view
     std::vector<std::string> warnings;                       ///< one line each, once per kind

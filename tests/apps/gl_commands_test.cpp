@@ -36,7 +36,7 @@ TEST_F(GlCommands, WarpingARenderedFrameToItsOwnPoseReturnsItsColour) {
     const auto source = read_png(folder / "frame" / "main.color.png");
     ASSERT_TRUE(source);
     EXPECT_EQ(source->size_px(), glm::ivec2(96, 96));
-    for (const char* method : {"stale", "rotation", "points", "splat", "reference"}) {
+    for (const char* method : {"stale", "rotation", "points:size_px=1", "splat", "reference"}) {
         const std::string png = (folder / "warped.png").string();
         const ProgramRun warp = run_latewarp({"warp", frame, "-o", png, "--method", method});
         ASSERT_EQ(warp.exit_code, 0) << warp.err;

@@ -142,8 +142,7 @@ void read_colours(PrimitiveReader& reader, std::vector<Vertex>& vertices) {
 void read_directions(PrimitiveReader& reader, bool needs_tangents, std::vector<Vertex>& vertices,
                      std::vector<std::uint32_t>& indices, MeshFindings& findings) {
     const std::optional<Attribute> normals = reader.attribute("NORMAL", 3);
-    const std::optional<Attribute> tangents =
-        needs_tangents && normals ? reader.attribute("TANGENT", 4) : std::optional<Attribute>{};
+    const std::optional<Attribute> tangents = normals ? reader.attribute("TANGENT", 4) : std::optional<Attribute>{};
     if (normals) {
         for (std::size_t i = 0; i < vertices.size(); ++i) {
             const float* n = &normals->values[3 * i];

@@ -28,7 +28,7 @@ struct IndexedFile {
 
 std::vector<IndexedFile> indexed_files() {
     std::vector<IndexedFile> files;
-    std::ifstream index{test::shared_data_dir() / "gltf_bad" / "INDEX.tsv"};
+    std::ifstream index{lw::test::shared_data_dir() / "gltf_bad" / "INDEX.tsv"};
     for (std::string line; std::getline(index, line);) {
         if (line.empty() || line[0] == '#' || line.rfind("path\t", 0) == 0) continue;
         std::istringstream cells{line};
@@ -51,8 +51,12 @@ std::uint64_t peak_resident_bytes() {
     return 0;
 }
 
-// Valid, and refused all the same: they demand what we do not have, and say so.
+// Valid, and refused all the same: they demand an extension or a version that we do not have, or draw from a buffer
+// without data.
 const std::set<std::string> kRightlyRefused = {
+    "glTF-Validator/base/data/asset/min_version_valid.gltf",
+    "glTF-Validator/base/data/root/named_objects.gltf",
+    "glTF-Validator/base/data/root/unused_objects.gltf",
     "magnum-plugins/CgltfImporter/required-extensions-unsupported.gltf",
     "magnum-plugins/GltfImporter/required-extensions-unsupported.gltf",
     "magnum-plugins/GltfImporter/version-unsupported-min.gltf",
@@ -73,7 +77,7 @@ TEST(DataGltfBad, EveryFileLoadsOrIsRefusedWithOneLine) {
     ASSERT_EQ(files.size(), 455u);
     for (const IndexedFile& file : files) {
         SCOPED_TRACE(file.path);
-        const fs::path path = test::shared_data_dir() / "gltf_bad" / file.path;
+        const fs::path path = lw::test::shared_data_dir() / "gltf_bad" / file.path;
         ASSERT_TRUE(fs::exists(path));
         const auto start = std::chrono::steady_clock::now();
         const auto scene = load_gltf(path);

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "scene/gltf.h"
@@ -26,7 +28,7 @@ struct ExpectedModel {
 /// Rows "| gltf/NAME/FILE | 94722 (94722) | ..." of the table of models.
 std::vector<ExpectedModel> models_of_table() {
     std::vector<ExpectedModel> models;
-    std::ifstream table{test::shared_data_dir() / "SOURCES.md"};
+    std::ifstream table{lw::test::shared_data_dir() / "SOURCES.md"};
     for (std::string line; std::getline(table, line);) {
         if (line.rfind("| gltf/", 0) != 0) continue;
         std::istringstream cells{line.substr(2)};
@@ -38,6 +40,19 @@ std::vector<ExpectedModel> models_of_table() {
         if (is_model) models.push_back(model);
     }
     return models;
+}
+
+/// The table counts a mesh once per node, also where EXT_mesh_gpu_instancing repeats it.
+std::uint64_t triangles_of_nodes(const Scene& scene) {
+    std::set<std::pair<int, int>> counted;
+    std::uint64_t triangles = 0;
+    for (const Instance& instance : scene.instances) {
+        if (!counted.emplace(instance.node, instance.mesh).second) continue;
+        for (const Primitive& primitive : scene.meshes[static_cast<std::size_t>(instance.mesh)].primitives) {
+            triangles += primitive.index_count / 3;
+        }
+    }
+    return triangles;
 }
 
 void expect_sound(const Scene& scene) {
@@ -61,21 +76,29 @@ void expect_sound(const Scene& scene) {
 TEST(DataGltf, EveryModelOfTheTableHasItsTriangles) {
     LW_NEED_SHARED_DATA();
     const std::vector<ExpectedModel> models = models_of_table();
-    ASSERT_EQ(models.size(), 53u);
+    ASSERT_EQ(models.size(), 54u);
     for (const ExpectedModel& model : models) {
         SCOPED_TRACE(model.path);
-        const auto scene = load_gltf(test::shared_data_dir() / model.path);
+        const auto scene = load_gltf(lw::test::shared_data_dir() / model.path);
         ASSERT_TRUE(scene.ok()) << scene.error().message();
-        EXPECT_EQ(scene->triangle_count(), model.triangles);
+        EXPECT_EQ(triangles_of_nodes(*scene), model.triangles);
         expect_sound(*scene);
     }
+}
+
+TEST(DataGltf, GpuInstancingRepeatsTheMesh) {
+    LW_NEED_SHARED_DATA();
+    const auto scene = load_gltf(lw::test::shared_data_dir() / "gltf/SimpleInstancing/simple-instancing.glb");
+    ASSERT_TRUE(scene.ok()) << scene.error().message();
+    EXPECT_EQ(scene->instances.size(), 125u);  // 5 x 5 x 5 cubes
+    EXPECT_EQ(scene->triangle_count(), 125u * 12u);
 }
 
 /// Sum over all .gltf files of a folder and its folders.
 void expect_kit(const std::string& folder, std::size_t expected_files, std::uint64_t expected_triangles) {
     std::size_t files = 0;
     std::uint64_t triangles = 0;
-    for (const auto& entry : fs::recursive_directory_iterator{test::shared_data_dir() / "gltf" / folder}) {
+    for (const auto& entry : fs::recursive_directory_iterator{lw::test::shared_data_dir() / "gltf" / folder}) {
         if (entry.path().extension() != ".gltf") continue;
         SCOPED_TRACE(entry.path().string());
         const auto scene = load_gltf(entry.path());

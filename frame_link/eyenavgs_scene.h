@@ -11,7 +11,7 @@ namespace lw {
 
 struct EyenavgsScene {
     /// Turns the scene's world upright. This direction was told apart by data: with it the heads of all recordings are
-    /// upright on average (mean up vector within 8 degrees of +Y), with its inverse they lean by up to 100 degrees.
+    /// upright on average (mean up vector within 9 degrees of +Y), with its inverse they lean by up to 100 degrees.
     glm::dquat upright_from_scene{1.0, 0.0, 0.0, 0.0};
     double units_per_m = 1.0;
 };

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <span>
 
 #include "core/check.h"
 #include "frame_link/velocity_fit.h"
@@ -43,7 +43,9 @@ public:
 class ConstantVelocityPredictor final : public HeadPosePredictor {
 public:
     PredictedPose predict(const HeadPoseFeed& feed, TimePoint now, TimePoint target) override {
-        const std::size_t count = feed.newest(now, samples_);
+        std::size_t count = feed.newest(now, std::span{samples_}.first(kUsualCount));
+        const bool is_short = count == kUsualCount && samples_[0].time - samples_[count - 1].time < kVelocityWindow;
+        if (is_short) count = feed.newest(now, samples_);
         const auto motion = fit_velocity({samples_.data(), count});
         if (!motion) return {Pose{}, now, 0};
         const Duration ahead = std::clamp(target - motion->newest.time, -kVelocityWindow, kVelocityHorizon);
@@ -51,8 +53,8 @@ public:
     }
 
 private:
-    // One window of a 10 kHz tracker, far above any that exists.
-    std::array<PoseSample, 256> samples_;
+    static constexpr std::size_t kUsualCount = 40;  // one window of a 1 kHz tracker, and some unusable samples
+    std::array<PoseSample, 320> samples_;           // one window of a 10 kHz tracker, far above any that exists
 };
 
 }  // namespace

@@ -8,9 +8,10 @@ using vec4 = glm::vec4;
 #endif
 
 // Texture units of a source layer.
-#define LW_WARP_COLOUR_UNIT 0
+#define LW_WARP_COLOUR_UNIT 0  // the stored bytes, nearest
 #define LW_WARP_DEPTH_UNIT 1
 #define LW_WARP_OBJECT_ID_UNIT 2
+#define LW_WARP_SMOOTH_COLOUR_UNIT 3  // the same colours, bilinear in linear light
 
 // Shader storage buffers.
 #define LW_WARP_OBJECTS_BINDING 0

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <utility>
 
 namespace lw {
 namespace {
@@ -22,23 +23,16 @@ void make_texture_if_needed(gl::Texture& texture, glm::ivec2 size_px, GLenum int
 
 }  // namespace
 
-GlSource::GlSource() : counters_{gl::make_buffer(sizeof(CounterWords), nullptr, GL_DYNAMIC_STORAGE_BIT)} {}
+GlSource::GlSource()
+    : smooth_{gl::make_sampler(GL_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE, GL_CLAMP_TO_EDGE)},
+      counters_{gl::make_buffer(sizeof(CounterWords), nullptr, GL_DYNAMIC_STORAGE_BIT)} {}
 
 void GlSource::bind(const Layer& layer, const WarpTarget& target) {
     if (const auto* textures = std::get_if<TexturePixels>(&layer.pixels)) {
-        // A view needs a name that was never bound, hence not glCreateTextures.
-        GLuint view = 0;
-        glGenTextures(1, &view);
-        colour_view_ = gl::Handle<gl::TextureTraits>{view};
-        glTextureView(view, GL_TEXTURE_2D, textures->colour.id(), GL_RGBA8, 0, 1, 0, 1);
-        glBindTextureUnit(LW_WARP_COLOUR_UNIT, view);
-        glBindTextureUnit(LW_WARP_DEPTH_UNIT, textures->depth.id());
-        glBindTextureUnit(LW_WARP_OBJECT_ID_UNIT, textures->object_id.id());
+        bind_textures(textures->colour.id(), textures->depth.id(), textures->object_id.id());
     } else {
         upload(checked_cpu_pixels(layer));
-        glBindTextureUnit(LW_WARP_COLOUR_UNIT, colour_.id());
-        glBindTextureUnit(LW_WARP_DEPTH_UNIT, depth_.id());
-        glBindTextureUnit(LW_WARP_OBJECT_ID_UNIT, object_id_.id());
+        bind_textures(colour_.id(), depth_.id(), object_id_.id());
     }
     matrices_.build(layer, target);
     bind_objects();
@@ -47,9 +41,23 @@ void GlSource::bind(const Layer& layer, const WarpTarget& target) {
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, LW_WARP_COUNTERS_BINDING, counters_.id());
 }
 
+void GlSource::bind_textures(GLuint colour, GLuint depth, GLuint object_id) {
+    // A view needs a name that was never bound, hence not glCreateTextures.
+    GLuint view = 0;
+    glGenTextures(1, &view);
+    glTextureView(view, GL_TEXTURE_2D, colour, GL_RGBA8, 0, 1, 0, 1);
+    colour_view_ = gl::Handle<gl::TextureTraits>{view};
+    glBindTextureUnit(LW_WARP_COLOUR_UNIT, view);
+    glBindTextureUnit(LW_WARP_DEPTH_UNIT, depth);
+    glBindTextureUnit(LW_WARP_OBJECT_ID_UNIT, object_id);
+    glBindTextureUnit(LW_WARP_SMOOTH_COLOUR_UNIT, colour);
+    for (const GLuint unit : {LW_WARP_COLOUR_UNIT, LW_WARP_DEPTH_UNIT, LW_WARP_OBJECT_ID_UNIT}) glBindSampler(unit, 0);
+    glBindSampler(LW_WARP_SMOOTH_COLOUR_UNIT, smooth_.id());
+}
+
 void GlSource::upload(const CpuPixels& pixels) {
     const glm::ivec2 size_px = pixels.colour.size_px();
-    make_texture_if_needed(colour_, size_px, GL_RGBA8);
+    make_texture_if_needed(colour_, size_px, GL_SRGB8_ALPHA8);
     make_texture_if_needed(depth_, size_px, GL_R32F);
     make_texture_if_needed(object_id_, size_px, GL_R16UI);
     colour_.upload(GL_RGBA, GL_UNSIGNED_BYTE, pixels.colour.pixels().data());
@@ -76,6 +84,22 @@ WarpCounters GlSource::counters() const {
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(counters_.id(), 0, sizeof(words), words.data());
     return {words[0], words[1]};
+}
+
+Result<GlBadPixelCounter> GlBadPixelCounter::create() {
+    auto program = gl::Program::create({"warp/count_bad.comp"});
+    if (!program) return program.error();
+    return GlBadPixelCounter{std::move(program).value()};
+}
+
+GlBadPixelCounter::GlBadPixelCounter(gl::Program program)
+    : program_{std::move(program)}, source_size_{program_.uniform("source_size_px")} {}
+
+void GlBadPixelCounter::count(glm::ivec2 source_size_px) const {
+    program_.use();
+    program_.set(source_size_, source_size_px);
+    const glm::uvec2 groups = work_groups(source_size_px);
+    glDispatchCompute(groups.x, groups.y, 1);
 }
 
 }  // namespace lw

@@ -4,9 +4,9 @@
 
 namespace lw {
 
-void GlTarget::begin(glm::ivec2 size_px) {
+void GlTarget::begin(glm::ivec2 size_px, Writes writes) {
     if (!framebuffer_ || framebuffer_.size_px() != size_px) {
-        colour_ = gl::Texture{size_px, GL_RGBA8};
+        colour_ = gl::Texture{size_px, GL_SRGB8_ALPHA8};
         coverage_ = gl::Texture{size_px, GL_R8UI};
         depth_ = gl::Texture{size_px, GL_DEPTH_COMPONENT32F};
         auto framebuffer = gl::Framebuffer::create({&colour_, &coverage_}, &depth_);
@@ -17,7 +17,6 @@ void GlTarget::begin(glm::ivec2 size_px) {
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glDisable(GL_SCISSOR_TEST);
-    glDisable(GL_FRAMEBUFFER_SRGB);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
@@ -28,6 +27,7 @@ void GlTarget::begin(glm::ivec2 size_px) {
     glClearNamedFramebufferfv(framebuffer_.id(), GL_COLOR, 0, kNothing);
     glClearNamedFramebufferuiv(framebuffer_.id(), GL_COLOR, 1, kHole);
     glClearNamedFramebufferfv(framebuffer_.id(), GL_DEPTH, 0, &kBackground);
+    writes == Writes::linear_light ? glEnable(GL_FRAMEBUFFER_SRGB) : glDisable(GL_FRAMEBUFFER_SRGB);
 }
 
 void GlTarget::read(DisplayFrame& out) const {

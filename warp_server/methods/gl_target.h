@@ -11,10 +11,13 @@ namespace lw {
 /// Belongs to one context and its thread. Keeps its textures while the size stays.
 class GlTarget {
 public:
-    /// Binds a framebuffer of `size_px` with attachments 0 (colour, RGBA8 without sRGB conversion), 1 (coverage, R8UI)
-    /// and depth (32 bit); everything a hole, depth 0, nearest wins (GL_GEQUAL), no blending and no culling.
-    /// Programmer error when the driver cannot (GL 4.5 demands these formats).
-    void begin(glm::ivec2 size_px);
+    /// What the shader writes as colour.
+    enum class Writes { stored_bytes, linear_light };
+
+    /// Binds a framebuffer of `size_px` with attachments 0 (colour, SRGB8_ALPHA8), 1 (coverage, R8UI) and depth (32
+    /// bit); everything a hole, depth 0, nearest wins (GL_GEQUAL), no blending and no culling. Programmer error when
+    /// the driver cannot (GL 4.5 demands these formats).
+    void begin(glm::ivec2 size_px, Writes writes);
 
     /// Reads the picture back; waits for the GPU. `out` is resized.
     void read(DisplayFrame& out) const;

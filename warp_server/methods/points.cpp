@@ -26,7 +26,7 @@ public:
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         source_.bind(layer, target);
-        target_.begin(target.camera.size_px);
+        target_.begin(target.camera.size_px, GlTarget::Writes::stored_bytes);
         program_.use();
         program_.set(source_size_, layer.camera.size_px);
         program_.set(target_size_, glm::vec2{target.camera.size_px});

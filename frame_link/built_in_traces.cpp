@@ -43,7 +43,7 @@ Pose pose_of(const HeadMotion& motion) {
 
 template <class MotionAt>
 Trace sampled(const char* name, MotionAt motion_at) {
-    const auto count = static_cast<std::size_t>(kDuration_s / kSample_s + 0.5) + 1;
+    const auto count = static_cast<std::size_t>(std::lround(kDuration_s / kSample_s)) + 1;
     std::vector<TimedPose> poses;
     poses.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -101,7 +101,7 @@ HeadMotion look_around_at(double time_s) { return {gaze_angles_rad(time_s), sway
 /// A walk around a long loop: straight, half turn to the left, straight back, half turn; twice in a minute.
 class Walk {
 public:
-    Walk() : points_(static_cast<std::size_t>(kLoop_m / kStep_m + 0.5) + 1) {
+    Walk() : points_(static_cast<std::size_t>(std::lround(kLoop_m / kStep_m)) + 1) {
         for (std::size_t i = 1; i < points_.size(); ++i) {
             const double heading = heading_rad_at((static_cast<double>(i) - 0.5) * kStep_m);
             points_[i] = points_[i - 1] + kStep_m * glm::dvec3{-std::sin(heading), 0.0, -std::cos(heading)};

@@ -51,7 +51,7 @@ std::filesystem::path find_scene_setting(const std::filesystem::path& recording)
     std::error_code ignored;
     std::filesystem::path folder = std::filesystem::absolute(recording, ignored).parent_path();
     for (int level = 0; level < 3; ++level) {
-        const std::filesystem::path file = folder / "scene_setting.csv";
+        std::filesystem::path file = folder / "scene_setting.csv";
         if (std::filesystem::is_regular_file(file, ignored)) return file;
         folder = folder.parent_path();
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/type_ptr.hpp>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -101,11 +102,7 @@ ObjectTransform read_object(Fields fields) {
     ObjectTransform object;
     object.id = static_cast<ObjectId>(fields.integer("id", 1, 65535));
     const auto m = fields.numbers<16>("world_from_object");
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            object.world_from_object[column][row] = m[static_cast<std::size_t>(4 * column + row)];
-        }
-    }
+    object.world_from_object = glm::make_mat4(m.data());
     if (m[3] != 0.0 || m[7] != 0.0 || m[11] != 0.0 || m[15] != 1.0) {
         fields.fail("world_from_object is not column-major and affine (numbers 4, 8, 12, 16 must be 0, 0, 0, 1)");
     }

@@ -29,6 +29,7 @@ std::string joined(const Names& names) {
 
 std::string format_names() {
     std::vector<std::string_view> names;
+    names.reserve(kFormats.size());
     for (const TraceFormat& format : kFormats) names.push_back(format.name);
     return joined(names);
 }

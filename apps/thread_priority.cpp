@@ -41,7 +41,10 @@ bool take_realtime_priority() {
     return pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameters) == 0;
 }
 
-bool step_back() { return setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kStepBack) == 0; }
+bool step_back() {
+    const auto self = static_cast<id_t>(gettid());
+    return setpriority(PRIO_PROCESS, self, getpriority(PRIO_PROCESS, self) + kStepBack) == 0;
+}
 
 void wake_exactly() { prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); }
 

@@ -13,6 +13,13 @@ using vec4 = glm::vec4;
 #define LW_WARP_OBJECT_ID_UNIT 2
 #define LW_WARP_SMOOTH_COLOUR_UNIT 3  // the same colours, bilinear in linear light
 
+// Image units of the compute shaders.
+#define LW_WARP_KEY_IMAGE 0
+#define LW_WARP_INDEX_IMAGE 1
+#define LW_WARP_COLOUR_IMAGE 2
+#define LW_WARP_DEPTH_IMAGE 3
+#define LW_WARP_COVERAGE_IMAGE 4
+
 // Shader storage buffers.
 #define LW_WARP_OBJECTS_BINDING 0
 #define LW_WARP_COUNTERS_BINDING 1

@@ -14,6 +14,7 @@ constexpr MethodEntry kMethods[] = {
     {"rotation", "homography of the head's rotation, bilinear", false, "", make_rotation_method},
     {"points", "every pixel a GL point", true, "size_px", make_points_method},
     {"mesh", "a vertex per pixel, triangles between neighbours", true, "", make_mesh_method},
+    {"compute", "every pixel a point, in compute shaders", true, "", make_compute_method},
     {"splat", "every pixel a point, on the CPU", false, "", make_splat_method},
     {"inverse", "search in the source for every target pixel, on the CPU", false, "steps", make_inverse_method},
     {"surface", "surfaces placed by their pieces, colour solved on each; the default", false, "", make_surface_method},

@@ -25,6 +25,11 @@ Result<LightingPass> LightingPass::create(bool point_lights) {
     if (!surfaces.ok()) return surfaces.error();
     auto sky = gl::Program::create({"client/fullscreen.vert", "client/sky.frag"});
     if (!sky.ok()) return sky.error();
+    if (point_lights) {
+        auto cull_lights = gl::Program::create({"client/light_tiles.comp"});
+        if (!cull_lights.ok()) return cull_lights.error();
+        pass.cull_lights_ = std::move(*cull_lights);
+    }
     pass.surfaces_ = std::move(*surfaces);
     pass.sky_ = std::move(*sky);
     pass.light_block_ = make_empty_buffer();
@@ -33,21 +38,26 @@ Result<LightingPass> LightingPass::create(bool point_lights) {
     return pass;
 }
 
+void LightingPass::cull_lights(const RenderTargets& targets, const LightTiles& lights) {
+    glNamedBufferData(light_block_.id(), sizeof(shader::LightsBlock), &lights.block(), GL_STREAM_DRAW);
+    glNamedBufferData(tile_masks_.id(), static_cast<GLsizeiptr>(lights.masks().size() * sizeof(glm::uvec2)),
+                      lights.masks().data(), GL_STREAM_DRAW);
+    glBindBufferBase(GL_UNIFORM_BUFFER, shader::kBindingLights, light_block_.id());
+    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::kBindingTiles, tile_masks_.id());
+    cull_lights_.use();
+    const glm::uvec2 tiles{LightTiles::tiles_for(targets.colour.size_px())};
+    glDispatchCompute(tiles.x, tiles.y, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
 void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights) {
-    if (point_lights_) {
-        glNamedBufferData(light_block_.id(), sizeof(shader::LightsBlock), &lights.block(), GL_STREAM_DRAW);
-        glNamedBufferData(tile_masks_.id(), static_cast<GLsizeiptr>(lights.masks().size() * sizeof(glm::uvec2)),
-                          lights.masks().data(), GL_STREAM_DRAW);
-        glBindBufferBase(GL_UNIFORM_BUFFER, shader::kBindingLights, light_block_.id());
-        glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::kBindingTiles, tile_masks_.id());
-    }
-    targets.lit.bind();
-    glBindVertexArray(no_attributes_.id());
     bind_texture(shader::kUnitGAlbedo, targets.albedo_roughness);
     bind_texture(shader::kUnitGNormal, targets.normal);
     bind_texture(shader::kUnitGEmissive, targets.emissive_metallic);
     bind_texture(shader::kUnitGDepth, targets.depth);
-
+    if (point_lights_) cull_lights(targets, lights);
+    targets.lit.bind();
+    glBindVertexArray(no_attributes_.id());
     // The triangle lies at depth 0. Depth is read by test and by fetch and never written here, so this is no feedback.
     glEnable(GL_DEPTH_TEST);
     glDepthMask(GL_FALSE);

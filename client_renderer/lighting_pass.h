@@ -20,7 +20,10 @@ public:
 private:
     LightingPass() = default;
 
+    void cull_lights(const RenderTargets& targets, const LightTiles& lights);
+
     bool point_lights_ = false;
+    gl::Program cull_lights_;  ///< empty without point lights
     gl::Program surfaces_;
     gl::Program sky_;
     gl::Buffer light_block_;

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <string>
 
+#include "client_renderer/surface_features.h"
 #include "gl/program.h"
 #include "shaders/client_blocks.h"
 #include "tests/support/gl_test.h"
@@ -60,6 +61,15 @@ TEST_F(GlBlockLayout, TheLightingPassReadsWhatItIsGiven) {
     EXPECT_SAME_OFFSET(*program, FrameBlock, tiles);
     EXPECT_SAME_ARRAY_OFFSET(*program, LightsBlock, position_range);
     EXPECT_SAME_ARRAY_OFFSET(*program, LightsBlock, intensity);
+}
+
+TEST_F(GlBlockLayout, EveryVariantOfTheGBufferPassCompiles) {
+    for (unsigned bits = 0; bits < 256; ++bits) {
+        const auto has = [&](unsigned bit) { return (bits >> bit & 1U) != 0; };
+        const SurfaceFeatures features{has(0), has(1), has(2), has(3), has(4), has(5), has(6), has(7)};
+        const auto program = gl::Program::create({"client/gbuffer.vert", "client/gbuffer.frag"}, defines_of(features));
+        ASSERT_TRUE(program.ok()) << program.error().message() << "\n" << defines_of(features);
+    }
 }
 
 }  // namespace

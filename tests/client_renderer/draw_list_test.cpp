@@ -1,0 +1,104 @@
+#include "client_renderer/draw_list.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "tests/client_renderer/hand_made_scenes.h"
+
+namespace lw {
+namespace {
+
+glm::dmat4 at(double x, double y, double z) { return glm::translate(glm::dmat4{1.0}, {x, y, z}); }
+
+class DrawListTest : public testing::Test {
+protected:
+    DrawListTest() {
+        scene_.meshes = {test::square_mesh(scene::kNone), test::square_mesh(scene::kNone)};
+        test::add_instance(scene_, 0, at(0.0, 0.0, -5.0));
+        test::add_instance(scene_, 1, at(0.0, 0.0, -6.0));
+        test::add_instance(scene_, 0, at(0.0, 0.0, 5.0));  // behind
+        test::add_instance(scene_, 0, at(1.0, 2.0, -7.0));
+        test::add_instance(scene_, 0, glm::scale(at(0.0, 0.0, -8.0), {-1.0, 1.0, 1.0}));
+        scene_.finish();
+        // Batch 0 draws a part of each mesh, batch 1 a second part of mesh 1.
+        batches_ = {{{0, 6, 0, 0}, {1, 3, 6, 4}}, {{1, 3, 9, 4}}};
+    }
+
+    scene::Scene scene_;
+    std::vector<std::vector<MeshPart>> batches_;
+};
+
+TEST_F(DrawListTest, InstancesOfAMeshShareOneCommand) {
+    scene::SceneState state{scene_};
+    state.set_time(0.0);
+    DrawList list{scene_, state};
+    list.build(state, test::plain_camera({64, 64}), batches_, true);
+
+    EXPECT_EQ(list.objects_tested(), 5U);
+    EXPECT_EQ(list.objects_drawn(), 4U);
+    ASSERT_EQ(list.ranges().size(), 3U);
+    EXPECT_EQ(list.ranges()[0].batch, 0);
+    EXPECT_FALSE(list.ranges()[0].mirrored);
+    EXPECT_EQ(list.ranges()[0].command_count, 2U);
+    EXPECT_TRUE(list.ranges()[1].mirrored);
+    EXPECT_EQ(list.ranges()[2].batch, 1);
+    EXPECT_EQ(list.commands().size(), 4U);
+
+    const DrawCommand& two_of_mesh_0 = list.commands()[0];
+    EXPECT_EQ(two_of_mesh_0.index_count, 6U);
+    EXPECT_EQ(two_of_mesh_0.instance_count, 2U);
+    const DrawCommand& mirrored = list.commands()[list.ranges()[1].first_command];
+    EXPECT_EQ(mirrored.instance_count, 1U);
+    EXPECT_EQ(list.instances()[mirrored.base_instance].relative_from_object_rows[0].x, -1.0f);
+    const DrawCommand& second_part = list.commands()[list.ranges()[2].first_command];
+    EXPECT_EQ(second_part.first_index, 9U);
+    EXPECT_EQ(second_part.base_vertex, 4);
+    EXPECT_EQ(second_part.base_instance, list.commands()[1].base_instance) << "both parts read the same instances";
+    EXPECT_EQ(list.triangles_drawn(), 2U * 2U + 1U + 2U + 1U);
+}
+
+TEST_F(DrawListTest, TransformsAreRelativeToTheEye) {
+    scene::SceneState state{scene_};
+    state.set_time(0.0);
+    DrawList list{scene_, state};
+    Camera camera = test::plain_camera({64, 64});
+    camera.world_from_eye.position_m = {0.25, 0.5, 1.0};
+    list.build(state, camera, batches_, true);
+    const PackedInstance& second = list.instances()[1];
+    EXPECT_EQ(second.relative_from_object_rows[0], (glm::vec4{1.0f, 0.0f, 0.0f, 0.75f}));
+    EXPECT_EQ(second.relative_from_object_rows[1], (glm::vec4{0.0f, 1.0f, 0.0f, 1.5f}));
+    EXPECT_EQ(second.relative_from_object_rows[2], (glm::vec4{0.0f, 0.0f, 1.0f, -8.0f}));
+}
+
+TEST_F(DrawListTest, WithoutCullingEverythingIsThere) {
+    scene::SceneState state{scene_};
+    state.set_time(0.0);
+    DrawList list{scene_, state};
+    list.build(state, test::plain_camera({64, 64}), batches_, false);
+    EXPECT_EQ(list.objects_drawn(), 5U);
+}
+
+TEST_F(DrawListTest, MoversAreTestedWhereTheyAre) {
+    scene::AnimationChannel channel;
+    channel.node = 0;
+    channel.loop_s = 10.0;
+    channel.times_s = {0.0f, 10.0f};
+    channel.values = {{0.0f, 0.0f, -5.0f, 0.0f}, {0.0f, 0.0f, 15.0f, 0.0f}};
+    scene_.nodes[0].matrix.reset();
+    scene_.channels.push_back(channel);
+    scene_.finish();
+    scene::SceneState state{scene_};
+    state.set_time(0.0);
+    DrawList list{scene_, state};
+    const Camera camera = test::plain_camera({64, 64});
+    list.build(state, camera, batches_, true);
+    EXPECT_EQ(list.objects_drawn(), 4U);
+    EXPECT_EQ(list.instances()[0].object_id, 1U);
+    state.set_time(8.0);  // at z = 11, behind the eye
+    list.build(state, camera, batches_, true);
+    EXPECT_EQ(list.objects_drawn(), 3U);
+}
+
+}  // namespace
+}  // namespace lw

@@ -15,6 +15,7 @@ constexpr MethodEntry kMethods[] = {
     {"points", "every pixel a GL point", true, "size_px", make_points_method},
     {"mesh", "a vertex per pixel, triangles between neighbours", true, "", make_mesh_method},
     {"compute", "every pixel a point, in compute shaders", true, "", make_compute_method},
+    {"inverse-gl", "the inverse search in a compute shader", true, "steps", make_inverse_gl_method},
     {"splat", "every pixel a point, on the CPU", false, "", make_splat_method},
     {"inverse", "search in the source for every target pixel, on the CPU", false, "steps", make_inverse_method},
     {"surface", "surfaces placed by their pieces, colour solved on each; the default", false, "", make_surface_method},

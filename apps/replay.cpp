@@ -103,7 +103,9 @@ Status write_folder(const Options& options, ReplayRun& run, const ReplayResult& 
     if (!strip_png) return strip_png.error();
     const Status csv = write_text(options.out / "frames.csv", replay_csv(result));
     if (!csv) return csv;
-    const std::string title = fmt::format("Latewarp replay: {} along {}", options.scene, options.trace);
+    const std::string title =
+        fmt::format("Latewarp replay: {} along {}", std::filesystem::path{options.scene}.filename().string(),
+                    std::filesystem::path{options.trace}.filename().string());
     const Status html = write_text(options.out / "report.html",
                                    replay_html(result, title, description_of(options, result), *strip_png));
     if (!html) return html;

@@ -19,10 +19,11 @@ Refresh ReplayClock::refresh(std::uint64_t number) const {
 }
 
 std::uint64_t ReplayClock::first_refresh() const {
-    const double earliest_s = to_seconds(timing_.app_latency + timing_.lead);
+    const TimePoint ready = published(kFirstShownFrame);
+    const double earliest_s = seconds_of(ready + timing_.lead);
     // One below the estimate, since that may be a rounding error too late.
     auto number = static_cast<std::uint64_t>(std::max(0.0, std::floor(earliest_s * timing_.display_hz) - 1.0));
-    while (latched(number) < published(0)) ++number;
+    while (latched(number) < ready) ++number;
     return number;
 }
 

@@ -3,7 +3,10 @@
 ///
 /// Refresh n begins its scan-out at n / display_hz; its photon time is half a period later; the server latches `lead`
 /// before the scan-out. Client frame k samples the head at k / app_hz, is published `app_latency` later and shown until
-/// the next one is published. The display starts with the first refresh that finds a published frame.
+/// the next one is published.
+///
+/// The display starts with the first refresh that shows frame 1. Frame 0 is the warm-up: when it is sampled the tracker
+/// has sent its first pose only, so there is no velocity to predict with, which no later frame meets again.
 
 #include <cstdint>
 
@@ -36,11 +39,13 @@ public:
     [[nodiscard]] Refresh refresh(std::uint64_t number) const;
     [[nodiscard]] TimePoint latched(std::uint64_t number) const { return refresh(number).scanout_begin - timing_.lead; }
 
-    /// Number of the first refresh that has a frame to show.
+    /// Number of the first refresh that shows a frame after the warm-up.
     [[nodiscard]] std::uint64_t first_refresh() const;
 
     /// The newest frame published at or before the refresh's latch. `number` >= first_refresh().
     [[nodiscard]] std::uint64_t frame_shown_at(std::uint64_t number) const;
+
+    static constexpr std::uint64_t kFirstShownFrame = 1;
 
 private:
     ReplayTiming timing_;

@@ -25,18 +25,18 @@ TEST(ReplayClock, FramesArePublishedOneLatencyAfterTheirPose) {
     EXPECT_EQ(clock.published(3), at_seconds(0.38));
 }
 
-TEST(ReplayClock, TheDisplayStartsWithTheFirstPublishedFrame) {
+TEST(ReplayClock, TheDisplayStartsWithTheFirstFrameAfterTheWarmUp) {
     const ReplayClock clock{timing(10, 25, 100, 5)};
-    // 105 ms after zero at 40 ms a refresh: number 3 begins at 120 ms.
-    EXPECT_EQ(clock.first_refresh(), 3u);
-    EXPECT_EQ(clock.frame_shown_at(3), 0u);
+    // Frame 1 is published at 200 ms and latched 5 ms ahead, at 40 ms a refresh: number 6 begins at 240 ms.
+    EXPECT_EQ(clock.first_refresh(), 6u);
+    EXPECT_EQ(clock.frame_shown_at(6), 1u);
 }
 
 TEST(ReplayClock, ARefreshExactlyAtPublishingShowsTheNewFrame) {
     const ReplayClock clock{timing(10, 100, 100, 0)};
-    EXPECT_EQ(clock.first_refresh(), 10u);
-    EXPECT_EQ(clock.frame_shown_at(19), 0u);
-    EXPECT_EQ(clock.frame_shown_at(20), 1u);
+    EXPECT_EQ(clock.first_refresh(), 20u);
+    EXPECT_EQ(clock.frame_shown_at(29), 1u);
+    EXPECT_EQ(clock.frame_shown_at(30), 2u);
 }
 
 TEST(ReplayClock, EveryRefreshShowsTheNewestPublishedFrame) {

@@ -7,16 +7,11 @@
 
 #include "frame_link/rendered_frame.h"
 #include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/row_range.h"
 #include "warp_server/methods/winner_rule.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
-
-/// Half-open range of image rows.
-struct RowRange {
-    int begin = 0;
-    int end = 0;
-};
 
 struct SplatInput {
     const CpuPixels* pixels = nullptr;

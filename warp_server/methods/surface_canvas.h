@@ -6,30 +6,29 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "warp_server/methods/row_range.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
 
-/// Draws into one display frame. One thread per canvas.
+/// Draws a band of rows of one display frame. One thread per canvas; canvases of one frame have bands of their own.
 class SurfaceCanvas {
 public:
-    /// Starts a picture of the size of `out`, whose colour and depth it overwrites.
-    void begin(DisplayFrame& out);
+    /// Starts a picture in the rows `band` of `out`, whose colour and depth there it overwrites.
+    void begin(DisplayFrame& out, RowRange band);
 
-    [[nodiscard]] glm::ivec2 size_px() const { return frame_->colour.size_px(); }
+    [[nodiscard]] DisplayFrame& frame() const { return *frame_; }
+    [[nodiscard]] RowRange band() const { return band_; }
 
-    [[nodiscard]] bool shows_nearer(int x, int y, float depth) const { return frame_->depth.at(x, y) >= depth; }
-
-    /// A surface that covers the whole pixel. The caller has asked shows_nearer().
-    void put_opaque(int x, int y, float depth, Rgba8 colour) {
-        frame_->depth.at(x, y) = depth;
-        frame_->colour.at(x, y) = colour;
-    }
-
-    /// A surface that covers a share of the pixel.
+    /// A surface that covers a share of pixel `index`, which must be in the band.
     /// @param coverage  in (0, 1]
     /// @param linear    its colour in linear light
-    void put_fragment(int x, int y, float depth, float coverage, const glm::vec3& linear);
+    void put_fragment(std::size_t index, float depth, float coverage, const glm::vec3& linear) {
+        std::int32_t& newest = newest_[index - first_index_];
+        if (newest < 0) touched_.push_back(static_cast<std::uint32_t>(index - first_index_));
+        fragments_.push_back({linear, depth, coverage, newest});
+        newest = static_cast<std::int32_t>(fragments_.size()) - 1;
+    }
 
     /// Puts fragments over what is opaque and marks coverage. A pixel of which less than half is covered is a hole.
     void finish();
@@ -43,12 +42,14 @@ private:
     };
     static constexpr float kNothing = -1.0F;
 
-    void composite(std::size_t pixel);
+    void composite(std::size_t touched);
 
     DisplayFrame* frame_ = nullptr;
+    RowRange band_;
+    std::size_t first_index_ = 0;  // of the band's first pixel
     std::vector<Fragment> fragments_;
-    Image<std::int32_t> newest_;  // of each pixel: its newest fragment, or -1
-    std::vector<std::size_t> touched_;
+    std::vector<std::int32_t> newest_;    // of each pixel of the band: its newest fragment, or -1
+    std::vector<std::uint32_t> touched_;  // pixels with fragments, relative to the band
     std::vector<const Fragment*> sorted_;
 };
 

@@ -6,19 +6,25 @@
 namespace lw {
 namespace {
 
+struct LinkEnds {
+    int link;
+    std::size_t a;
+    std::size_t b;
+};
+
 CornerGroups groups_of(int links) {
-    constexpr std::array<std::array<int, 3>, 6> kEnds{{{kLinkTop, 0, 1},
-                                                       {kLinkBottom, 2, 3},
-                                                       {kLinkLeft, 0, 2},
-                                                       {kLinkRight, 1, 3},
-                                                       {kLinkFalling, 0, 3},
-                                                       {kLinkRising, 1, 2}}};
+    constexpr std::array<LinkEnds, 6> kEnds{{{kLinkTop, 0, 1},
+                                             {kLinkBottom, 2, 3},
+                                             {kLinkLeft, 0, 2},
+                                             {kLinkRight, 1, 3},
+                                             {kLinkFalling, 0, 3},
+                                             {kLinkRising, 1, 2}}};
     std::array<std::size_t, 4> root{0, 1, 2, 3};
-    for (const auto& [link, a, b] : kEnds) {
-        if ((links & link) == 0) continue;
-        const std::size_t from = root[static_cast<std::size_t>(b)];
-        const std::size_t to = root[static_cast<std::size_t>(a)];
-        std::replace(root.begin(), root.end(), std::max(from, to), std::min(from, to));
+    for (const LinkEnds& ends : kEnds) {
+        if ((links & ends.link) == 0) continue;
+        const std::size_t from = std::max(root[ends.a], root[ends.b]);
+        const std::size_t to = std::min(root[ends.a], root[ends.b]);
+        std::replace(root.begin(), root.end(), from, to);
     }
     CornerGroups groups;
     for (std::size_t first = 0; first < 4; ++first) {
@@ -32,44 +38,38 @@ CornerGroups groups_of(int links) {
     return groups;
 }
 
-// The smaller step to a linked neighbour along x (or y); 0 without one.
-struct LinkedSteps {
-    const CpuPixels* pixels;
-    const PreparedSurface* prepared;
+// The smaller of the steps to linked neighbours; 0 without one.
+float smaller_step(bool has_before, float before, bool has_after, float after) {
+    if (has_before && has_after) return std::abs(before) < std::abs(after) ? before : after;
+    if (has_before) return before;
+    return has_after ? after : 0.0F;
+}
 
-    [[nodiscard]] bool has_link(int x, int y, CellLink link) const {
-        return x >= 0 && y >= 0 && (prepared->cell_links.at(x, y) & link) != 0;
-    }
-    [[nodiscard]] float depth(int x, int y) const {
-        return pixels->depth.at(std::min(x, prepared->size_px.x - 1), std::min(y, prepared->size_px.y - 1));
-    }
-    [[nodiscard]] static float smaller(bool has_before, float before, bool has_after, float after) {
-        if (has_before && has_after) return std::abs(before) < std::abs(after) ? before : after;
-        if (has_before) return before;
-        return has_after ? after : 0.0F;
-    }
-    [[nodiscard]] float along_x(int x, int y) const {
-        const bool before = has_link(x - 1, y, kLinkTop);
-        const bool after = x + 1 < prepared->size_px.x && has_link(x, y, kLinkTop);
-        const float own = depth(x, y);
-        return smaller(before, before ? own - depth(x - 1, y) : 0.0F, after, after ? depth(x + 1, y) - own : 0.0F);
-    }
-    [[nodiscard]] float along_y(int x, int y) const {
-        const bool before = has_link(x, y - 1, kLinkLeft);
-        const bool after = y + 1 < prepared->size_px.y && has_link(x, y, kLinkLeft);
-        const float own = depth(x, y);
-        return smaller(before, before ? own - depth(x, y - 1) : 0.0F, after, after ? depth(x, y + 1) - own : 0.0F);
-    }
-};
+float step_along_x(const SurfaceLinks& links, int x, int y) {
+    const DepthImage& depth = links.pixels().depth;
+    const bool before = x > 0 && links.to_right(x - 1, y);
+    const bool after = x + 1 < depth.width() && links.to_right(x, y);
+    const float own = depth.at(x, y);
+    return smaller_step(before, before ? own - depth.at(x - 1, y) : 0.0F, after,
+                        after ? depth.at(x + 1, y) - own : 0.0F);
+}
 
-// Mean of the steps between the pairs of corners that the group holds; false when it holds neither pair.
+float step_along_y(const SurfaceLinks& links, int x, int y) {
+    const DepthImage& depth = links.pixels().depth;
+    const bool before = y > 0 && links.down(x, y - 1);
+    const bool after = y + 1 < depth.height() && links.down(x, y);
+    const float own = depth.at(x, y);
+    return smaller_step(before, before ? own - depth.at(x, y - 1) : 0.0F, after,
+                        after ? depth.at(x, y + 1) - own : 0.0F);
+}
+
+bool holds(std::uint8_t corners, std::size_t corner) { return (corners >> corner & 1) != 0; }
+
+// Mean of the steps a0-a1 and b0-b1 that the group holds; false when it holds neither pair.
 bool mean_step(std::uint8_t corners, const std::array<float, 4>& depth, std::size_t a0, std::size_t a1, std::size_t b0,
                std::size_t b1, float& step) {
-    const auto holds = [corners](std::size_t p, std::size_t q) {
-        return (corners >> p & 1) != 0 && (corners >> q & 1) != 0;
-    };
-    const bool first = holds(a0, a1);
-    const bool second = holds(b0, b1);
+    const bool first = holds(corners, a0) && holds(corners, a1);
+    const bool second = holds(corners, b0) && holds(corners, b1);
     if (!first && !second) return false;
     const float sum = (first ? depth[a1] - depth[a0] : 0.0F) + (second ? depth[b1] - depth[b0] : 0.0F);
     step = first && second ? 0.5F * sum : sum;
@@ -87,40 +87,39 @@ const CornerGroups& corner_groups(std::uint8_t links) {
     return table[links & 63U];
 }
 
-bool cell_surface(const CpuPixels& pixels, const PreparedSurface& prepared, int x, int y, std::uint8_t corners,
-                  CellSurface& surface) {
-    const LinkedSteps steps{&pixels, &prepared};
-    const int x1 = std::min(x + 1, prepared.size_px.x - 1);
-    const int y1 = std::min(y + 1, prepared.size_px.y - 1);
+bool cell_surface(const SurfaceLinks& links, int x, int y, std::uint8_t corners, CellSurface& surface) {
+    const CpuPixels& pixels = links.pixels();
+    const int x1 = std::min(x + 1, links.size_px().x - 1);
+    const int y1 = std::min(y + 1, links.size_px().y - 1);
     const std::array<glm::ivec2, 4> at{glm::ivec2{x, y}, {x1, y}, {x, y1}, {x1, y1}};
     std::array<float, 4> depth{};
-    int members = 0;
-    glm::vec2 pixel_gradient{0.0F};
     for (std::size_t corner = 0; corner < 4; ++corner) {
-        if ((corners >> corner & 1) == 0) continue;
-        depth[corner] = pixels.depth.at(at[corner].x, at[corner].y);
-        if (!is_usable_depth(depth[corner])) return false;
+        if (!holds(corners, corner)) continue;
         surface.object_id = pixels.object_id.at(at[corner].x, at[corner].y);
-        pixel_gradient +=
-            glm::vec2{steps.along_x(at[corner].x, at[corner].y), steps.along_y(at[corner].x, at[corner].y)};
-        ++members;
+        depth[corner] = links.depth_of(surface.object_id, at[corner].x, at[corner].y);
+        if (depth[corner] < 0.0F) return false;
     }
-    SourcePlane& plane = surface.plane;
-    plane.gradient_x = pixel_gradient.x / static_cast<float>(members);
-    plane.gradient_y = pixel_gradient.y / static_cast<float>(members);
-    mean_step(corners, depth, 0, 1, 2, 3, plane.gradient_x);
-    mean_step(corners, depth, 0, 2, 1, 3, plane.gradient_y);
+    const bool has_x = mean_step(corners, depth, 0, 1, 2, 3, surface.gradient_x);
+    const bool has_y = mean_step(corners, depth, 0, 2, 1, 3, surface.gradient_y);
+    float members = 0.0F;
+    float pixel_step_x = 0.0F;
+    float pixel_step_y = 0.0F;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+        if (!holds(corners, corner)) continue;
+        members += 1.0F;
+        if (!has_x) pixel_step_x += step_along_x(links, at[corner].x, at[corner].y);
+        if (!has_y) pixel_step_y += step_along_y(links, at[corner].x, at[corner].y);
+    }
+    if (!has_x) surface.gradient_x = pixel_step_x / members;
+    if (!has_y) surface.gradient_y = pixel_step_y / members;
     float sum = 0.0F;
     for (std::size_t corner = 0; corner < 4; ++corner) {
-        if ((corners >> corner & 1) == 0) continue;
-        const float to_centre_x = (corner & 1U) != 0 ? -0.5F : 0.5F;
-        const float to_centre_y = (corner & 2U) != 0 ? -0.5F : 0.5F;
-        sum += depth[corner] + to_centre_x * plane.gradient_x + to_centre_y * plane.gradient_y;
+        if (!holds(corners, corner)) continue;
+        const float right = (corner & 1U) != 0 ? surface.gradient_x : 0.0F;
+        const float down = (corner & 2U) != 0 ? surface.gradient_y : 0.0F;
+        sum += depth[corner] - right - down;
     }
-    plane.depth = sum / static_cast<float>(members);
-    plane.origin_x_px = static_cast<float>(x) + 1.0F;  // corner 0 is the pixel centre (x + 0.5, y + 0.5)
-    plane.origin_y_px = static_cast<float>(y) + 1.0F;
-    surface.corners = corners;
+    surface.depth = sum / members;
     return true;
 }
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cstdint>
 
-#include "warp_server/methods/surface_classify.h"
-#include "warp_server/methods/surface_patch.h"
+#include "core/object_transform.h"
+#include "warp_server/methods/surface_links.h"
 
 namespace lw {
 
@@ -14,20 +14,19 @@ struct CornerGroups {
     std::array<std::uint8_t, 4> corners{};
     int count = 0;
 };
-inline constexpr std::uint8_t kAllCorners = 15;
 
 /// Corners that links join, directly or through others. `links` are CellLink bits. Looked up, any thread.
 [[nodiscard]] const CornerGroups& corner_groups(std::uint8_t links);
 
-/// One surface of one cell. Places are relative to the cell's corner 0.
+/// One surface of one cell.
 struct CellSurface {
-    std::uint8_t corners = 0;
     ObjectId object_id = 0;
-    SourcePlane plane;  ///< its origin is the centre of the cell
+    float depth = 0.0F;  ///< of its plane at the cell's corner 0
+    float gradient_x = 0.0F;
+    float gradient_y = 0.0F;
 };
 
 /// False when the group is a corner with an unusable depth.
-[[nodiscard]] bool cell_surface(const CpuPixels& pixels, const PreparedSurface& prepared, int x, int y,
-                                std::uint8_t corners, CellSurface& surface);
+[[nodiscard]] bool cell_surface(const SurfaceLinks& links, int x, int y, std::uint8_t corners, CellSurface& surface);
 
 }  // namespace lw

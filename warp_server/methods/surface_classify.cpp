@@ -1,116 +1,217 @@
 #include "warp_server/methods/surface_classify.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "core/colour.h"
+#include "warp_server/methods/linear_colour.h"
 #include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/surface_cells.h"
+#include "warp_server/methods/surface_links.h"
+#include "warp_server/methods/surface_tolerances.h"
 
 namespace lw {
 namespace {
 
-// A step of 1 % of the depth displaces the parallax by as much: 0.5 px for a head that moved 10 cm before something
-// 1 m away, which is less than what a wrong edge would show.
-constexpr float kLevelDepthPart = 0.01F;
-// Samples averaged per surface sit up to a quarter of a pixel beside the pixel's centre, so slopes differ by half of
-// themselves at worst between two neighbours of one plane.
-constexpr float kSlopeChangePart = 0.5F;
-// A pixel of a tile may lie off the tile's plane by this part of its depth: 0.05 px for 10 cm of motion at 1 m.
-constexpr float kPlaneDepthPart = 1e-3F;
+// Patches grow from single cells to squares of this many cells by powers of two; larger ones save little.
+constexpr int kLargestPatch = 64;
+// Where looking for planes starts: most blocks of this size are one plane in man-made scenes.
+constexpr int kFirstBlock = 8;
 
-constexpr float kBad = -1.0F;  // stands for every unusable depth: it is on no surface
+// Depth over a block, at the centre of its first pixel.
+struct BlockPlane {
+    ObjectId id = 0;
+    float depth = 0.0F;
+    float gradient_x = 0.0F;
+    float gradient_y = 0.0F;
 
-class Classifier {
+    [[nodiscard]] float at(int dx, int dy) const {
+        return depth + static_cast<float>(dx) * gradient_x + static_cast<float>(dy) * gradient_y;
+    }
+};
+
+bool depths_agree(float depth, float expected) { return std::abs(depth - expected) <= kPlaneDepthPart * depth; }
+
+// Cuts the image into the largest blocks that are planes, and into cells where surfaces meet.
+class PatchBuilder {
 public:
-    explicit Classifier(const CpuPixels& pixels) : pixels_{&pixels}, size_px_{pixels.depth.size_px()} {}
+    PatchBuilder(const SurfaceLinks& links, PreparedSurface& out)
+        : links_{&links}, out_{&out}, size_px_{links.size_px()} {}
 
-    [[nodiscard]] std::shared_ptr<const PreparedSurface> classify() const {
-        auto prepared = std::make_shared<PreparedSurface>();
-        prepared->size_px = size_px_;
-        prepared->tiles = (size_px_ + kTileCells - 1) / kTileCells;
-        prepared->cell_links.resize(size_px_);
-        for (int y = 0; y < size_px_.y; ++y) {
-            for (int x = 0; x < size_px_.x; ++x) prepared->cell_links.at(x, y) = links_of_cell(x, y);
-        }
-        for (int row = 0; row < prepared->tiles.y; ++row) {
-            for (int column = 0; column < prepared->tiles.x; ++column) {
-                prepared->tile.push_back(tile_from(column * kTileCells, row * kTileCells));
+    void build() {
+        for (int y = 0; y < size_px_.y; y += kLargestPatch) {
+            for (int x = 0; x < size_px_.x; x += kLargestPatch) {
+                BlockPlane plane;
+                if (merge_block(x, y, kLargestPatch, plane)) add_patch(x, y, kLargestPatch, plane);
             }
         }
-        return prepared;
     }
 
 private:
-    [[nodiscard]] glm::ivec2 clamped(int x, int y) const {
-        return {std::clamp(x, 0, size_px_.x - 1), std::clamp(y, 0, size_px_.y - 1)};
+    // True when the whole block is one plane, which the caller must add; else everything in it has been added.
+    bool merge_block(int x, int y, int size, BlockPlane& plane) {
+        if (size <= kFirstBlock) return plane_or_parts(x, y, size, plane);
+        const int half = size / 2;
+        std::array<BlockPlane, 4> planes;
+        std::array<bool, 4> exists{};
+        std::array<bool, 4> whole{};
+        bool all_whole = true;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int child_x = x + ((i & 1U) != 0 ? half : 0);
+            const int child_y = y + ((i & 2U) != 0 ? half : 0);
+            exists[i] = child_x < size_px_.x && child_y < size_px_.y;
+            if (!exists[i]) continue;
+            whole[i] = merge_block(child_x, child_y, half, planes[i]);
+            all_whole = all_whole && whole[i];
+        }
+        plane = plane_through_corners(x, y, size);
+        if (all_whole && children_agree(x, y, half, exists, planes, plane)) return true;
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int child_x = x + ((i & 1U) != 0 ? half : 0);
+            const int child_y = y + ((i & 2U) != 0 ? half : 0);
+            if (whole[i]) add_patch(child_x, child_y, half, planes[i]);
+        }
+        return false;
     }
 
-    [[nodiscard]] ObjectId id_at(int x, int y) const {
-        const glm::ivec2 at = clamped(x, y);
-        return pixels_->object_id.at(at.x, at.y);
+    [[nodiscard]] BlockPlane plane_through_corners(int x0, int y0, int size) const {
+        const int x1 = std::min(x0 + size, size_px_.x - 1);
+        const int y1 = std::min(y0 + size, size_px_.y - 1);
+        BlockPlane plane;
+        plane.id = links_->pixels().object_id.at(x0, y0);
+        plane.depth = links_->depth_of(plane.id, x0, y0);
+        if (x1 > x0)
+            plane.gradient_x = (links_->depth_of(plane.id, x1, y0) - plane.depth) / static_cast<float>(x1 - x0);
+        if (y1 > y0)
+            plane.gradient_y = (links_->depth_of(plane.id, x0, y1) - plane.depth) / static_cast<float>(y1 - y0);
+        return plane;
     }
 
-    // kBad where the pixel is of another object than `id` or its depth cannot be used.
-    [[nodiscard]] float depth_of(ObjectId id, int x, int y) const {
-        const glm::ivec2 at = clamped(x, y);
-        const float depth = pixels_->depth.at(at.x, at.y);
-        return pixels_->object_id.at(at.x, at.y) == id && is_usable_depth(depth) ? depth : kBad;
+    [[nodiscard]] bool children_agree(int x, int y, int half, const std::array<bool, 4>& exists,
+                                      const std::array<BlockPlane, 4>& planes, const BlockPlane& plane) const {
+        for (std::size_t i = 0; i < 4; ++i) {
+            if (!exists[i]) continue;
+            const int dx = (i & 1U) != 0 ? half : 0;
+            const int dy = (i & 2U) != 0 ? half : 0;
+            if (planes[i].id != plane.id) return false;
+            const int reach_x = std::min(half, size_px_.x - 1 - x - dx);
+            const int reach_y = std::min(half, size_px_.y - 1 - y - dy);
+            const bool agree = depths_agree(planes[i].at(0, 0), plane.at(dx, dy)) &&
+                               depths_agree(planes[i].at(reach_x, 0), plane.at(dx + reach_x, dy)) &&
+                               depths_agree(planes[i].at(0, reach_y), plane.at(dx, dy + reach_y)) &&
+                               depths_agree(planes[i].at(reach_x, reach_y), plane.at(dx + reach_x, dy + reach_y));
+            if (!agree) return false;
+        }
+        return true;
     }
 
-    [[nodiscard]] bool linked(int x, int y, int step_x, int step_y) const {
-        const ObjectId id = id_at(x, y);
-        return on_one_surface(depth_of(id, x - step_x, y - step_y), depth_of(id, x, y),
-                              depth_of(id, x + step_x, y + step_y), depth_of(id, x + 2 * step_x, y + 2 * step_y));
-    }
-
-    [[nodiscard]] std::uint8_t links_of_cell(int x, int y) const {
-        int links = 0;
-        if (linked(x, y, 1, 0)) links |= kLinkTop;
-        if (linked(x, y + 1, 1, 0)) links |= kLinkBottom;
-        if (linked(x, y, 0, 1)) links |= kLinkLeft;
-        if (linked(x + 1, y, 0, 1)) links |= kLinkRight;
-        if (linked(x, y, 1, 1)) links |= kLinkFalling;
-        if (linked(x + 1, y, -1, 1)) links |= kLinkRising;
-        return static_cast<std::uint8_t>(links);
-    }
-
-    [[nodiscard]] SurfaceTile tile_from(int x0, int y0) const {
-        const int x1 = std::min(x0 + kTileCells, size_px_.x - 1);
-        const int y1 = std::min(y0 + kTileCells, size_px_.y - 1);
-        const ObjectId id = id_at(x0, y0);
-        SurfaceTile tile{TileKind::cells, id, depth_of(id, x0, y0), 0.0F, 0.0F};
-        if (x1 > x0) tile.gradient_x = (depth_of(id, x1, y0) - tile.depth) / static_cast<float>(x1 - x0);
-        if (y1 > y0) tile.gradient_y = (depth_of(id, x0, y1) - tile.depth) / static_cast<float>(y1 - y0);
-        for (int y = y0; y <= y1; ++y) {
-            for (int x = x0; x <= x1; ++x) {
-                const float depth = depth_of(id, x, y);
-                const float expected = tile.depth + static_cast<float>(x - x0) * tile.gradient_x +
-                                       static_cast<float>(y - y0) * tile.gradient_y;
-                if (depth < 0.0F || std::abs(depth - expected) > kPlaneDepthPart * depth) return tile;
+    bool plane_or_parts(int x, int y, int size, BlockPlane& plane) {
+        if (size == 1) {
+            add_cell(x, y);
+            return false;
+        }
+        plane = plane_through_corners(x, y, size);
+        if (is_plane(x, y, size, plane)) return true;
+        const int half = size / 2;
+        for (const int child_y : {y, y + half}) {
+            for (const int child_x : {x, x + half}) {
+                if (child_x >= size_px_.x || child_y >= size_px_.y) continue;
+                BlockPlane part;
+                if (plane_or_parts(child_x, child_y, half, part)) add_patch(child_x, child_y, half, part);
             }
         }
-        tile.kind = TileKind::plane;
-        return tile;
+        return false;
     }
 
-    const CpuPixels* pixels_;
+    [[nodiscard]] bool is_plane(int x0, int y0, int size, const BlockPlane& plane) const {
+        const int x1 = std::min(x0 + size, size_px_.x - 1);
+        const int y1 = std::min(y0 + size, size_px_.y - 1);
+        for (int y = y0; y <= y1; ++y) {
+            const float* depths = links_->pixels().depth.row(y).data();
+            const ObjectId* ids = links_->pixels().object_id.row(y).data();
+            for (int x = x0; x <= x1; ++x) {
+                const bool on_plane = ids[x] == plane.id && is_usable_depth(depths[x]) &&
+                                      depths_agree(depths[x], plane.at(x - x0, y - y0));
+                if (!on_plane) return false;
+            }
+        }
+        return true;
+    }
+
+    void add_cell(int x, int y) {
+        if (joins_all_corners(links_->sides(x, y))) {
+            add_cell_surface(out_->patches, x, y, kAllCorners);
+            return;
+        }
+        const CornerGroups& groups = corner_groups(links_->all_links(x, y));
+        for (int i = 0; i < groups.count; ++i) {
+            const std::uint8_t corners = groups.corners[static_cast<std::size_t>(i)];
+            add_cell_surface(corners == kAllCorners ? out_->patches : out_->edges, x, y, corners);
+        }
+    }
+
+    void add_cell_surface(PatchList& list, int x, int y, std::uint8_t corners) {
+        CellSurface surface;
+        if (!cell_surface(*links_, x, y, corners, surface)) return;
+        add(list, x, y, 1, {surface.object_id, surface.depth, surface.gradient_x, surface.gradient_y}, corners);
+    }
+
+    void add_patch(int x, int y, int size, const BlockPlane& plane) {
+        add(out_->patches, x, y, size, plane, kAllCorners);
+    }
+
+    // Patches at the rim of the image reach half a pixel further, to the image's edge; the last cells half as far.
+    void add(PatchList& list, int x, int y, int size, const BlockPlane& plane, std::uint8_t corners) const {
+        const float overlap = corners == kAllCorners ? kPatchOverlapPx : kEdgeOverlapPx;
+        const int columns = std::min(size, size_px_.x - x);
+        const int rows = std::min(size, size_px_.y - y);
+        list.x.push_back(static_cast<float>(x));
+        list.y.push_back(static_cast<float>(y));
+        list.depth.push_back(plane.depth);
+        list.gradient_x.push_back(plane.gradient_x);
+        list.gradient_y.push_back(plane.gradient_y);
+        list.left.push_back(x == 0 ? -0.5F : -overlap);
+        list.top.push_back(y == 0 ? -0.5F : -overlap);
+        list.right.push_back(static_cast<float>(columns) + (x + columns == size_px_.x ? -0.5F : overlap));
+        list.bottom.push_back(static_cast<float>(rows) + (y + rows == size_px_.y ? -0.5F : overlap));
+        list.object_id.push_back(plane.id);
+        list.corners.push_back(corners);
+    }
+
+    const SurfaceLinks* links_;
+    PreparedSurface* out_;
     glm::ivec2 size_px_;
 };
 
-}  // namespace
-
-bool on_one_surface(float before, float a, float b, float after) {
-    if (a < 0.0F || b < 0.0F) return false;
-    if (a == 0.0F || b == 0.0F) return a == b;  // background is its own surface
-    const float step = b - a;
-    if (std::abs(step) <= kLevelDepthPart * std::min(a, b)) return true;
-    const float allowed = kSlopeChangePart * std::abs(step);
-    const bool continues_before = before > 0.0F && std::abs(step - (a - before)) <= allowed;
-    const bool continues_after = after > 0.0F && std::abs(step - (after - b)) <= allowed;
-    return continues_before || continues_after;
+void count_ids(const CpuPixels& pixels, std::vector<IdCount>& counts) {
+    std::vector<IdCount> by_id(1);
+    const std::span<const ObjectId> ids = pixels.object_id.pixels();
+    const std::span<const float> depths = pixels.depth.pixels();
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        if (ids[i] >= by_id.size()) by_id.resize(std::size_t{ids[i]} + 1);
+        ++by_id[ids[i]].pixels;
+        if (!is_usable_depth(depths[i])) ++by_id[ids[i]].bad_depths;
+    }
+    for (std::size_t id = 0; id < by_id.size(); ++id) {
+        if (by_id[id].pixels == 0) continue;
+        counts.push_back(by_id[id]);
+        counts.back().id = static_cast<ObjectId>(id);
+    }
 }
 
+}  // namespace
+
+void PatchList::clear() { *this = {}; }
+
 std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels) {
-    return Classifier{pixels}.classify();
+    auto prepared = std::make_shared<PreparedSurface>();
+    prepared->size_px = pixels.depth.size_px();
+    const SurfaceLinks links{pixels};
+    PatchBuilder{links, *prepared}.build();
+    linearise(pixels.colour, prepared->linear_colours);
+    count_ids(pixels, prepared->id_counts);
+    return prepared;
 }
 
 }  // namespace lw

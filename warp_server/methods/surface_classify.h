@@ -1,60 +1,62 @@
 #pragma once
-/// What `surface` works out about a layer once, before it is published: which neighbouring pixels lie on one surface,
-/// and which tiles are one plane of one object.
+/// What `surface` works out about a layer once, before it is published: the pieces of plane that it is made of.
 
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "core/image.h"
+#include "core/object_transform.h"
 #include "frame_link/rendered_frame.h"
 
 namespace lw {
 
 /// A cell is the unit square between the centres of four neighbouring pixels; its corners are numbered 0 (x, y),
-/// 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1). Each side and diagonal may be a link: both ends on one surface.
-enum CellLink : std::uint8_t {
-    kLinkTop = 1,       ///< corners 0-1
-    kLinkBottom = 2,    ///< 2-3
-    kLinkLeft = 4,      ///< 0-2
-    kLinkRight = 8,     ///< 1-3
-    kLinkFalling = 16,  ///< 0-3
-    kLinkRising = 32,   ///< 1-2
-};
-inline constexpr std::uint8_t kAllSides = kLinkTop | kLinkBottom | kLinkLeft | kLinkRight;
+/// 1 (x + 1, y), 2 (x, y + 1), 3 (x + 1, y + 1). Beyond the last column and row the last pixels count again.
+///
+/// A patch is a rectangle of cells on one plane of one object. Its origin is the centre of its first cell's corner 0,
+/// at the pixel (x, y); places in it are relative to that. One value per patch in each vector.
+struct PatchList {
+    std::vector<float> x;  ///< whole numbers: column of the origin's pixel
+    std::vector<float> y;
+    std::vector<float> depth;       ///< of the plane at the origin
+    std::vector<float> gradient_x;  ///< depth per pixel
+    std::vector<float> gradient_y;
+    std::vector<float> left;  ///< the rectangle, relative to the origin, with what it overlaps its neighbours
+    std::vector<float> right;
+    std::vector<float> top;
+    std::vector<float> bottom;
+    std::vector<ObjectId> object_id;
+    std::vector<std::uint8_t> corners;  ///< of an edge cell: bits 1 << corner of the pixels on this surface; else 15
 
-enum class TileKind : std::uint8_t {
-    plane,  ///< one plane of one object (or background): one homography moves it
-    cells,  ///< anything else: every cell is looked at
+    [[nodiscard]] std::size_t size() const { return x.size(); }
+    void clear();
 };
+inline constexpr std::uint8_t kAllCorners = 15;
 
-/// A square of kTileCells x kTileCells cells, fewer at the right and bottom.
-struct SurfaceTile {
-    TileKind kind = TileKind::cells;
-    std::uint16_t object_id = 0;
-    float depth = 0.0F;       ///< of the plane at the centre of the tile's first pixel
-    float gradient_x = 0.0F;  ///< depth per pixel
-    float gradient_y = 0.0F;
+/// Pixels of one object id in a layer.
+struct IdCount {
+    ObjectId id = 0;
+    std::uint64_t pixels = 0;
+    std::uint64_t bad_depths = 0;
 };
-inline constexpr int kTileCells = 8;
 
 struct PreparedSurface final : PreparedLayer {
     glm::ivec2 size_px{0};
-    glm::ivec2 tiles{0};             ///< tile columns and rows
-    std::vector<SurfaceTile> tile;   ///< row by row
-    Image<std::uint8_t> cell_links;  ///< CellLink bits of the cell whose corner 0 is the pixel; at the last column
-                                     ///< and row the missing corners count as copies of the last pixels
-
-    [[nodiscard]] const SurfaceTile& tile_at(int column, int row) const {
-        return tile[static_cast<std::size_t>(row) * static_cast<std::size_t>(tiles.x) +
-                    static_cast<std::size_t>(column)];
-    }
+    PatchList patches;  ///< cover their target pixels wholly
+    PatchList edges;    ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
+    /// Colours in linear light, 15 bits each in 16: red lowest. One more row and a few more pixels than the image, so
+    /// that a bilinear read at its last pixel stays inside.
+    std::vector<std::uint64_t> linear_colours;
+    std::vector<IdCount> id_counts;  ///< by ascending id
 };
 
-/// Any thread. `pixels` may hold bad depths: they are linked to nothing.
+/// Any thread. `pixels` may hold bad depths: they are on no surface.
 [[nodiscard]] std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels);
 
 /// Depths `before, a, b, after` along a line: do a and b lie on one surface? Their difference must be small, or
-/// continue the slope on one side: depth is affine in the pixel coordinates on every plane, at any slant.
+/// continue the slope on one side: depth is affine in the pixel coordinates on every plane, at any slant. Negative
+/// depths are on no surface; background (0) is its own.
 [[nodiscard]] bool on_one_surface(float before, float a, float b, float after);
 
 }  // namespace lw

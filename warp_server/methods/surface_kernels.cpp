@@ -1,0 +1,423 @@
+#include "warp_server/methods/surface_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "warp_server/methods/surface_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as it asks.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "warp_server/methods/linear_colour.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no image
+// Target pixels per source pixel, in area, below which a plane counts as seen edge-on; negative: from its back.
+constexpr float kSmallestArea = 1e-4F;
+constexpr float kSmallestCoverage = 1.0F / 512.0F;  // less changes no 8-bit colour
+constexpr float kLinearScale = 1.0F / static_cast<float>(kLinearOne);
+
+// Patches laid out for one target: the inverse of each one's homography, relative to where its origin lands. With e the
+// offset of a target place from there: k = inverse * e, share = 1 - w_x kx - w_y ky, offset in the source = w / share *
+// k.
+struct alignas(HWY_MAX_BYTES) PlacedPatches {
+    float target_x[kMaxLanes];
+    float target_y[kMaxLanes];
+    float w[kMaxLanes];
+    float w_x[kMaxLanes];
+    float w_y[kMaxLanes];
+    float inverse_xx[kMaxLanes];
+    float inverse_xy[kMaxLanes];
+    float inverse_yx[kMaxLanes];
+    float inverse_yy[kMaxLanes];
+    float depth_factor[kMaxLanes];  // depth in the target = factor * share * depth in the source
+    std::int32_t x_begin[kMaxLanes];
+    std::int32_t x_end[kMaxLanes];
+    std::int32_t y_begin[kMaxLanes];
+    std::int32_t y_end[kMaxLanes];
+};
+
+// Within a narrow box of target pixels, lanes run over several of its rows: lane k of a box w wide is at (k % w, k /
+// w).
+struct LaneOffsets {
+    float x[kMaxLanes + 1][kMaxLanes];
+    float y[kMaxLanes + 1][kMaxLanes];
+};
+
+const LaneOffsets& lane_offsets() {
+    static const LaneOffsets offsets = [] {
+        LaneOffsets made{};
+        for (std::size_t width = 1; width <= kMaxLanes; ++width) {
+            for (std::size_t lane = 0; lane < kMaxLanes; ++lane) {
+                made.x[width][lane] = static_cast<float>(lane % width);
+                made.y[width][lane] = static_cast<float>(lane / width);
+            }
+        }
+        return made;
+    }();
+    return offsets;
+}
+
+template <class D, class M>
+std::uint64_t bits_of(D d, M mask) {
+    std::uint8_t bytes[8] = {};
+    hn::StoreMaskBits(d, mask, bytes);
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, bytes, sizeof(bits));
+    return bits;
+}
+
+class Painter {
+public:
+    Painter(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind)
+        : input_{input},
+          list_{list},
+          canvas_{canvas},
+          behind_{behind},
+          source_size_px_{input.prepared->size_px},
+          target_width_{canvas.frame().depth.width()},
+          depths_{canvas.frame().depth.pixels().data()},
+          colours_{canvas.frame().colour.pixels().data()},
+          linear_{input.prepared->linear_colours.data()},
+          encode_{srgb8_from_linear15_table().data()} {}
+
+    void paint() {
+        const hn::ScalableTag<float> d;
+        const hn::CappedTag<float, 1> d1;
+        const std::size_t lanes = hn::Lanes(d);
+        std::size_t i = 0;
+        for (; i + lanes <= list_.size(); i += lanes) paint_some(d, i);
+        for (; i < list_.size(); ++i) paint_some(d1, i);
+    }
+
+private:
+    // Lanes(d) patches: places them all at once, object by object, then paints one after the other.
+    template <class D>
+    HWY_INLINE void paint_some(D d, std::size_t first) {
+        const hn::RebindToUnsigned<D> du;
+        const hn::Rebind<std::uint16_t, D> d16;
+        const auto ids = hn::PromoteTo(du, hn::LoadU(d16, list_.object_id.data() + first));
+        auto remaining = hn::Eq(hn::Zero(d), hn::Zero(d));
+        while (!hn::AllFalse(d, remaining)) {
+            const ObjectId id = list_.object_id[first + static_cast<std::size_t>(hn::FindFirstTrue(d, remaining))];
+            const auto same = hn::RebindMask(d, hn::Eq(ids, hn::Set(du, std::uint32_t{id})));
+            const auto group = hn::And(remaining, same);
+            remaining = hn::AndNot(same, remaining);
+            const PixelMatrix* matrix = input_.matrices->find(id);
+            if (matrix == nullptr) continue;
+            PlacedPatches placed;
+            for (std::uint64_t bits = place(d, first, *matrix, group, placed); bits != 0; bits &= bits - 1) {
+                const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
+                paint_one(first + lane, lane, placed);
+            }
+        }
+    }
+
+    // Which of the patches have pixels in the band.
+    template <class D, class M>
+    HWY_INLINE std::uint64_t place(D d, std::size_t first, const PixelMatrix& m, M wanted, PlacedPatches& placed) {
+        using V = hn::Vec<D>;
+        const hn::RebindToSigned<D> di;
+        const auto set = [&](float value) { return hn::Set(d, value); };
+        const auto load = [&](const std::vector<float>& values) { return hn::LoadU(d, values.data() + first); };
+        const V half_px = set(0.5F);
+        const V x = hn::Add(load(list_.x), half_px);
+        const V y = hn::Add(load(list_.y), half_px);
+        const V z = load(list_.depth);
+        const V gradient_x = load(list_.gradient_x);
+        const V gradient_y = load(list_.gradient_y);
+        const auto row = [&](float one, float of_y, float of_x, float of_z) {
+            return hn::Add(hn::Add(hn::Add(set(one), hn::Mul(y, set(of_y))), hn::Mul(x, set(of_x))),
+                           hn::Mul(z, set(of_z)));
+        };
+        const V w = row(m.one.w, m.y.w, m.x.w, m.z.w);
+        const V inverse_w = hn::Div(set(1.0F), w);
+        const V target_x = hn::Mul(row(m.one.x, m.y.x, m.x.x, m.z.x), inverse_w);
+        const V target_y = hn::Mul(row(m.one.y, m.y.y, m.x.y, m.z.y), inverse_w);
+        const auto column = [&](float of_place, V gradient, float of_z) {
+            return hn::Add(set(of_place), hn::Mul(gradient, set(of_z)));
+        };
+        const V w_x = column(m.x.w, gradient_x, m.z.w);
+        const V w_y = column(m.y.w, gradient_y, m.z.w);
+        const V xx = hn::Sub(column(m.x.x, gradient_x, m.z.x), hn::Mul(target_x, w_x));
+        const V xy = hn::Sub(column(m.y.x, gradient_y, m.z.x), hn::Mul(target_x, w_y));
+        const V yx = hn::Sub(column(m.x.y, gradient_x, m.z.y), hn::Mul(target_y, w_x));
+        const V yy = hn::Sub(column(m.y.y, gradient_y, m.z.y), hn::Mul(target_y, w_y));
+        const V determinant = hn::Sub(hn::Mul(xx, yy), hn::Mul(xy, yx));
+
+        // The box around the projected corners.
+        V low_x = set(kOutOfReachPx);
+        V low_y = low_x;
+        V high_x = set(-kOutOfReachPx);
+        V high_y = high_x;
+        auto in_front = hn::Gt(w, hn::Zero(d));
+        for (const auto* dx : {&list_.left, &list_.right}) {
+            for (const auto* dy : {&list_.top, &list_.bottom}) {
+                const V corner_x = load(*dx);
+                const V corner_y = load(*dy);
+                const V corner_w = hn::Add(hn::Add(w, hn::Mul(w_x, corner_x)), hn::Mul(w_y, corner_y));
+                in_front = hn::And(in_front, hn::Gt(corner_w, hn::Zero(d)));
+                const V scale = hn::Div(set(1.0F), corner_w);
+                const V place_x =
+                    hn::Add(target_x, hn::Mul(hn::Add(hn::Mul(xx, corner_x), hn::Mul(xy, corner_y)), scale));
+                const V place_y =
+                    hn::Add(target_y, hn::Mul(hn::Add(hn::Mul(yx, corner_x), hn::Mul(yy, corner_y)), scale));
+                low_x = hn::Min(low_x, place_x);
+                low_y = hn::Min(low_y, place_y);
+                high_x = hn::Max(high_x, place_x);
+                high_y = hn::Max(high_y, place_y);
+            }
+        }
+        for (std::uint64_t bits = bits_of(d, hn::AndNot(in_front, wanted)); bits != 0; bits &= bits - 1) {
+            behind_.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctzll(bits))));
+        }
+        const auto bounded = [&](V value, float low, float high) {
+            return hn::ConvertTo(di, hn::Min(hn::Max(value, set(low)), set(high)));
+        };
+        const auto width = static_cast<float>(target_width_);
+        const auto band_begin = static_cast<float>(canvas_.band().begin);
+        const auto band_end = static_cast<float>(canvas_.band().end);
+        const auto x_begin = bounded(hn::Ceil(hn::Sub(low_x, half_px)), 0.0F, width);
+        const auto x_end = bounded(hn::Floor(hn::Add(high_x, half_px)), 0.0F, width);
+        const auto y_begin = bounded(hn::Ceil(hn::Sub(low_y, half_px)), band_begin, band_end);
+        const auto y_end = bounded(hn::Floor(hn::Add(high_y, half_px)), band_begin, band_end);
+        const auto not_empty = hn::And(hn::Lt(x_begin, x_end), hn::Lt(y_begin, y_end));
+        const auto faces_us = hn::Gt(determinant, hn::Mul(set(kSmallestArea), hn::Mul(w, w)));
+        const auto in_reach =
+            hn::And(hn::Lt(hn::Abs(target_x), set(kOutOfReachPx)), hn::Lt(hn::Abs(target_y), set(kOutOfReachPx)));
+        const auto visible =
+            hn::And(hn::And(wanted, hn::And(in_front, in_reach)), hn::And(faces_us, hn::RebindMask(d, not_empty)));
+        const std::uint64_t bits = bits_of(d, visible);
+        if (bits == 0) return 0;
+
+        const V scale = hn::Div(set(1.0F), determinant);
+        hn::Store(target_x, d, placed.target_x);
+        hn::Store(target_y, d, placed.target_y);
+        hn::Store(w, d, placed.w);
+        hn::Store(w_x, d, placed.w_x);
+        hn::Store(w_y, d, placed.w_y);
+        hn::Store(hn::Mul(yy, scale), d, placed.inverse_xx);
+        hn::Store(hn::Neg(hn::Mul(xy, scale)), d, placed.inverse_xy);
+        hn::Store(hn::Neg(hn::Mul(yx, scale)), d, placed.inverse_yx);
+        hn::Store(hn::Mul(xx, scale), d, placed.inverse_yy);
+        hn::Store(hn::Mul(set(m.depth_scale), inverse_w), d, placed.depth_factor);
+        hn::Store(x_begin, di, placed.x_begin);
+        hn::Store(x_end, di, placed.x_end);
+        hn::Store(y_begin, di, placed.y_begin);
+        hn::Store(y_end, di, placed.y_end);
+        return bits;
+    }
+
+    // Solves every pixel of the patch's box, as many at once as there are lanes, and paints those inside of it.
+    HWY_INLINE void paint_one(std::size_t patch, std::size_t lane, const PlacedPatches& placed) {
+        const hn::ScalableTag<float> d;
+        using V = hn::Vec<decltype(d)>;
+        const hn::RebindToSigned<decltype(d)> di;
+        const int lanes = static_cast<int>(hn::Lanes(d));
+        const auto set = [&](float value) { return hn::Set(d, value); };
+        const V w = set(placed.w[lane]);
+        const V w_x = set(placed.w_x[lane]);
+        const V w_y = set(placed.w_y[lane]);
+        const V inverse_xx = set(placed.inverse_xx[lane]);
+        const V inverse_xy = set(placed.inverse_xy[lane]);
+        const V inverse_yx = set(placed.inverse_yx[lane]);
+        const V inverse_yy = set(placed.inverse_yy[lane]);
+        const V depth = set(list_.depth[patch]);
+        const V gradient_x = set(list_.gradient_x[patch]);
+        const V gradient_y = set(list_.gradient_y[patch]);
+        const V depth_factor = set(placed.depth_factor[lane]);
+        const V left = set(list_.left[patch]);
+        const V right = set(list_.right[patch]);
+        const V top = set(list_.top[patch]);
+        const V bottom = set(list_.bottom[patch]);
+        const V one = set(1.0F);
+        const bool is_whole = list_.corners[patch] == kAllCorners;
+
+        const int box_width = placed.x_end[lane] - placed.x_begin[lane];
+        const int columns = std::min(box_width, lanes);
+        const int rows = lanes / columns;
+        const V lane_x = hn::LoadU(d, lane_offsets().x[columns]);
+        const V lane_y = hn::LoadU(d, lane_offsets().y[columns]);
+        const V row_limit = set(static_cast<float>(placed.y_end[lane]));
+        const V column_limit = set(static_cast<float>(placed.x_end[lane]));
+        const V inside_rows = set(static_cast<float>(rows));
+        HWY_ALIGN float depth_lanes[kMaxLanes];
+        HWY_ALIGN float dx_lanes[kMaxLanes];
+        HWY_ALIGN float dy_lanes[kMaxLanes];
+        HWY_ALIGN std::int32_t index_lanes[kMaxLanes];
+        for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
+            const V pixel_y = hn::Add(lane_y, set(static_cast<float>(y)));
+            const V ey = hn::Sub(hn::Add(pixel_y, set(0.5F)), set(placed.target_y[lane]));
+            const V kx_of_row = hn::Mul(inverse_xy, ey);
+            const V ky_of_row = hn::Mul(inverse_yy, ey);
+            for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
+                const V pixel_x = hn::Add(lane_x, set(static_cast<float>(x)));
+                const V ex = hn::Sub(hn::Add(pixel_x, set(0.5F)), set(placed.target_x[lane]));
+                const V kx = hn::Add(hn::Mul(inverse_xx, ex), kx_of_row);
+                const V ky = hn::Add(hn::Mul(inverse_yx, ex), ky_of_row);
+                const V share = hn::Sub(hn::Sub(one, hn::Mul(w_x, kx)), hn::Mul(w_y, ky));
+                const V place_w = hn::Div(w, share);
+                const V dx = hn::Mul(place_w, kx);
+                const V dy = hn::Mul(place_w, ky);
+                const V source_depth = hn::Add(hn::Add(depth, hn::Mul(gradient_x, dx)), hn::Mul(gradient_y, dy));
+                const V target_depth = hn::Mul(hn::Mul(depth_factor, share), source_depth);
+                auto inside = hn::And(hn::Ge(dx, left), hn::Le(dx, right));
+                inside = hn::And(inside, hn::And(hn::Ge(dy, top), hn::Le(dy, bottom)));
+                inside = hn::And(inside, hn::And(hn::Gt(share, hn::Zero(d)), hn::Le(target_depth, one)));
+                inside = hn::And(inside, hn::And(hn::Lt(pixel_y, row_limit), hn::Lt(pixel_x, column_limit)));
+                inside = hn::And(inside, hn::Lt(lane_y, inside_rows));
+                const std::uint64_t bits = bits_of(d, inside);
+                if (bits == 0) continue;
+                const auto index = hn::Add(hn::Mul(hn::ConvertTo(di, pixel_y), hn::Set(di, target_width_)),
+                                           hn::ConvertTo(di, pixel_x));
+                hn::Store(index, di, index_lanes);
+                hn::Store(hn::Max(target_depth, hn::Zero(d)), d, depth_lanes);
+                hn::Store(dx, d, dx_lanes);
+                hn::Store(dy, d, dy_lanes);
+                if (is_whole) {
+                    paint_opaque(d, patch, bits, index_lanes, depth_lanes, dx, dy);
+                } else {
+                    paint_fragments(patch, bits, index_lanes, depth_lanes, dx_lanes, dy_lanes);
+                }
+            }
+        }
+    }
+
+    template <class D, class V>
+    HWY_INLINE void paint_opaque(D d, std::size_t patch, std::uint64_t bits, const std::int32_t* indices,
+                                 const float* depths, V dx, V dy) {
+        const hn::RebindToSigned<D> di;
+        const auto whole_part = [&](V place, int size) {
+            return hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(size - 1)));
+        };
+        const V x = whole_part(hn::Add(hn::Set(d, list_.x[patch]), dx), source_size_px_.x);
+        const V y = whole_part(hn::Add(hn::Set(d, list_.y[patch]), dy), source_size_px_.y);
+        const auto x0 = hn::ConvertTo(di, x);
+        const auto y0 = hn::ConvertTo(di, y);
+        // Fractions in 15 bits; exactly 0 at a pixel centre.
+        const auto fraction = [&](V place, decltype(x0) first) {
+            const V part = hn::Sub(place, hn::ConvertTo(d, first));
+            return hn::ConvertTo(di, hn::Min(hn::Mul(part, hn::Set(d, 32768.0F)), hn::Set(d, 32767.0F)));
+        };
+        HWY_ALIGN std::int32_t taps[kMaxLanes];
+        HWY_ALIGN std::int32_t fx[kMaxLanes];
+        HWY_ALIGN std::int32_t fy[kMaxLanes];
+        hn::Store(hn::Add(hn::Mul(y0, hn::Set(di, source_size_px_.x)), x0), di, taps);
+        hn::Store(fraction(x, x0), di, fx);
+        hn::Store(fraction(y, y0), di, fy);
+        for (; bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
+            float& shown = depths_[indices[lane]];
+            if (shown >= depths[lane]) continue;
+            shown = depths[lane];
+            colours_[indices[lane]] = read_bilinear(static_cast<std::size_t>(taps[lane]), fx[lane], fy[lane]);
+        }
+    }
+
+    // Rows first, then columns, each step rounded to 15 bits: a + (b - a) * fraction.
+    HWY_INLINE Rgba8 read_bilinear(std::size_t tap, std::int32_t fx, std::int32_t fy) const {
+        const std::uint64_t* top = linear_ + tap;
+        const std::uint64_t* bottom = top + source_size_px_.x;
+#if HWY_TARGET == HWY_SCALAR
+        std::int32_t channel[3];
+        for (unsigned i = 0; i < 3; ++i) {
+            const auto at = [&](const std::uint64_t* word) {
+                return static_cast<std::int32_t>(*word >> 16U * i & 0xFFFFU);
+            };
+            const auto mix = [](std::int32_t a, std::int32_t b, std::int32_t f) {
+                return a + (((b - a) * f + 0x4000) >> 15);
+            };
+            channel[i] = mix(mix(at(top), at(bottom), fy), mix(at(top + 1), at(bottom + 1), fy), fx);
+        }
+        return {encode_[channel[0]], encode_[channel[1]], encode_[channel[2]], 255};
+#else
+        const hn::FixedTag<std::int16_t, 8> d16;
+        const hn::FixedTag<std::uint64_t, 2> d64;
+        const auto above = hn::BitCast(d16, hn::LoadU(d64, top));
+        const auto below = hn::BitCast(d16, hn::LoadU(d64, bottom));
+        const auto down = hn::Set(d16, static_cast<std::int16_t>(fy));
+        const auto across = hn::Set(d16, static_cast<std::int16_t>(fx));
+        const auto pair = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
+        const auto right = hn::ShiftRightLanes<4>(d16, pair);
+        const auto mixed = hn::Add(pair, hn::MulFixedPoint15(hn::Sub(right, pair), across));
+        const std::uint64_t channels = hn::GetLane(hn::BitCast(d64, mixed));
+        return {encode_[channels & 0x7FFFU], encode_[channels >> 16U & 0x7FFFU], encode_[channels >> 32U & 0x7FFFU],
+                255};
+#endif
+    }
+
+    // One corner group of an edge cell: weighs its corners alone, and covers as much as they weigh.
+    void paint_fragments(std::size_t patch, std::uint64_t bits, const std::int32_t* indices, const float* depths,
+                         const float* dx, const float* dy) {
+        const int x = static_cast<int>(list_.x[patch]);
+        const int y = static_cast<int>(list_.y[patch]);
+        const std::uint8_t corners = list_.corners[patch];
+        const std::size_t right = x + 1 < source_size_px_.x ? 1 : 0;
+        const std::size_t down = y + 1 < source_size_px_.y ? static_cast<std::size_t>(source_size_px_.x) : 0;
+        const std::uint64_t* first = linear_ +
+                                     static_cast<std::size_t>(y) * static_cast<std::size_t>(source_size_px_.x) +
+                                     static_cast<std::size_t>(x);
+        const std::uint64_t words[4] = {first[0], first[right], first[down], first[right + down]};
+        for (; bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
+            if (depths_[indices[lane]] >= depths[lane]) continue;
+            const float u = std::clamp(dx[lane], 0.0F, 1.0F);
+            const float v = std::clamp(dy[lane], 0.0F, 1.0F);
+            const float weights[4] = {(1.0F - u) * (1.0F - v), u * (1.0F - v), (1.0F - u) * v, u * v};
+            glm::vec3 linear{0.0F};
+            float coverage = 0.0F;
+            for (unsigned corner = 0; corner < 4; ++corner) {
+                if ((corners >> corner & 1U) == 0) continue;
+                const std::uint64_t word = words[corner];
+                coverage += weights[corner];
+                linear += weights[corner] * glm::vec3{static_cast<float>(word & 0xFFFFU),
+                                                      static_cast<float>(word >> 16U & 0xFFFFU),
+                                                      static_cast<float>(word >> 32U & 0xFFFFU)};
+            }
+            if (coverage < kSmallestCoverage) continue;
+            canvas_.put_fragment(static_cast<std::size_t>(indices[lane]), depths[lane], coverage,
+                                 linear * (kLinearScale / coverage));
+        }
+    }
+
+    const PatchInput& input_;
+    const PatchList& list_;
+    SurfaceCanvas& canvas_;
+    std::vector<std::uint32_t>& behind_;
+    glm::ivec2 source_size_px_;
+    std::int32_t target_width_;
+    float* depths_;
+    Rgba8* colours_;
+    const std::uint64_t* linear_;
+    const std::uint8_t* encode_;
+};
+
+void draw_patches_here(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
+                       std::vector<std::uint32_t>& behind) {
+    Painter{input, list, canvas, behind}.paint();
+}
+
+}  // namespace
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lw {
+
+HWY_EXPORT(draw_patches_here);
+
+void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
+                  std::vector<std::uint32_t>& behind) {
+    HWY_DYNAMIC_DISPATCH(draw_patches_here)(input, list, canvas, behind);
+}
+
+}  // namespace lw
+#endif

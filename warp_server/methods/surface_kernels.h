@@ -1,0 +1,22 @@
+#pragma once
+/// Laying patches over the target: the inner loops of `surface`, compiled for every instruction set and chosen at run
+/// time. All compute with plain IEEE and whole-number operations, so every one gives the same bytes.
+
+#include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/surface_canvas.h"
+#include "warp_server/methods/surface_classify.h"
+
+namespace lw {
+
+struct PatchInput {
+    const CpuPixels* pixels = nullptr;
+    const PreparedSurface* prepared = nullptr;
+    const ObjectMatrices* matrices = nullptr;
+};
+
+/// Draws `list` where it is nearer than what the canvas shows: whole patches as opaque pixels, edge cells as fragments.
+/// Patches that reach behind the target eye are left out and their indices appended to `behind`.
+void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
+                  std::vector<std::uint32_t>& behind);
+
+}  // namespace lw

@@ -1,0 +1,165 @@
+#include "warp_server/methods/surface_links.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "warp_server/methods/surface_links.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as it asks.
+#include <hwy/highway.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/surface_classify.h"
+#include "warp_server/methods/surface_tolerances.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// One row of the image with its first pixel repeated once before it, its last one after it; unusable depths are -1.
+struct PaddedRow {
+    std::vector<float> depth;
+    std::vector<std::int32_t> id;
+};
+constexpr int kPadBefore = 1;
+constexpr int kPadAfter = 2 + HWY_MAX_BYTES / 4;
+
+void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Rebind<std::uint16_t, decltype(d)> d16;
+    const int width = pixels.depth.width();
+    const float* depth = pixels.depth.row(y).data();
+    const ObjectId* id = pixels.object_id.row(y).data();
+    row.depth.resize(static_cast<std::size_t>(kPadBefore + width + kPadAfter));
+    row.id.resize(row.depth.size());
+    float* to_depth = row.depth.data() + kPadBefore;
+    std::int32_t* to_id = row.id.data() + kPadBefore;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    int x = 0;
+    for (; x + lanes <= width; x += lanes) {
+        const auto value = hn::LoadU(d, depth + x);
+        const auto usable = hn::And(hn::Ge(value, hn::Zero(d)), hn::Le(value, hn::Set(d, 1.0F)));
+        hn::StoreU(hn::IfThenElse(usable, value, hn::Set(d, -1.0F)), d, to_depth + x);
+        hn::StoreU(hn::PromoteTo(di, hn::LoadU(d16, id + x)), di, to_id + x);
+    }
+    for (; x < width; ++x) {
+        to_depth[x] = is_usable_depth(depth[x]) ? depth[x] : -1.0F;
+        to_id[x] = id[x];
+    }
+    to_depth[-1] = to_depth[0];
+    to_id[-1] = to_id[0];
+    std::fill(to_depth + width, to_depth + width + kPadAfter, to_depth[width - 1]);
+    std::fill(to_id + width, to_id + width + kPadAfter, to_id[width - 1]);
+}
+
+// on_one_surface for Lanes(d) pixels a whose neighbours b follow. Depths of other objects than a's count as -1.
+template <class D, class V = hn::Vec<D>>
+auto linked(D d, V before, V a, V b, V after) {
+    const V zero = hn::Zero(d);
+    const V step = hn::Sub(b, a);
+    const V size = hn::Abs(step);
+    const auto level = hn::Le(size, hn::Mul(hn::Set(d, kLevelDepthPart), hn::Min(a, b)));
+    const V allowed = hn::Mul(hn::Set(d, kSlopeChangePart), size);
+    const auto like_before = hn::And(hn::Gt(before, zero), hn::Le(hn::Abs(hn::Sub(step, hn::Sub(a, before))), allowed));
+    const auto like_after = hn::And(hn::Gt(after, zero), hn::Le(hn::Abs(hn::Sub(step, hn::Sub(after, b))), allowed));
+    const auto near_enough = hn::Or(level, hn::Or(like_before, like_after));
+    const auto usable = hn::And(hn::Ge(a, zero), hn::Ge(b, zero));
+    const auto both_or_neither = hn::Or(hn::And(hn::Gt(a, zero), hn::Gt(b, zero)), hn::Eq(a, b));
+    return hn::And(near_enough, hn::And(usable, both_or_neither));
+}
+
+void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& below, const PaddedRow& second_below,
+              int width, std::uint8_t* out) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Rebind<std::uint8_t, decltype(d)> d8;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    HWY_ALIGN std::uint8_t last[HWY_MAX_BYTES];
+    for (int x = 0; x < width; x += lanes) {
+        const std::ptrdiff_t at = x + kPadBefore;
+        const auto id = hn::LoadU(di, here.id.data() + at);
+        const auto depth_of_own_object = [&](const PaddedRow& row, std::ptrdiff_t offset) {
+            const auto same = hn::RebindMask(d, hn::Eq(hn::LoadU(di, row.id.data() + at + offset), id));
+            return hn::IfThenElse(same, hn::LoadU(d, row.depth.data() + at + offset), hn::Set(d, -1.0F));
+        };
+        const auto own = hn::LoadU(d, here.depth.data() + at);
+        const auto to_right =
+            linked(d, depth_of_own_object(here, -1), own, depth_of_own_object(here, 1), depth_of_own_object(here, 2));
+        const auto down = linked(d, depth_of_own_object(above, 0), own, depth_of_own_object(below, 0),
+                                 depth_of_own_object(second_below, 0));
+        const auto bits = hn::Or(hn::IfThenElseZero(hn::RebindMask(di, to_right), hn::Set(di, 1)),
+                                 hn::IfThenElseZero(hn::RebindMask(di, down), hn::Set(di, 2)));
+        if (x + lanes <= width) {
+            hn::StoreU(hn::DemoteTo(d8, bits), d8, out + x);
+        } else {
+            hn::StoreU(hn::DemoteTo(d8, bits), d8, last);
+            std::copy(last, last + (width - x), out + x);
+        }
+    }
+}
+
+void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links) {
+    const int height = pixels.depth.height();
+    PaddedRow rows[4];  // y - 1, y, y + 1, y + 2, by y % 4
+    const auto row = [&](int y) -> PaddedRow& {
+        return rows[static_cast<unsigned>(std::clamp(y, 0, height - 1)) % 4U];
+    };
+    for (int y = 0; y < std::min(2, height); ++y) fill_row(pixels, y, row(y));
+    for (int y = 0; y < height; ++y) {
+        if (y + 2 < height) fill_row(pixels, y + 2, row(y + 2));
+        link_row(row(y - 1), row(y), row(y + 1), row(y + 2), links.width(), links.row(y).data());
+    }
+}
+
+}  // namespace
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lw {
+
+HWY_EXPORT(link_image);
+
+SurfaceLinks::SurfaceLinks(const CpuPixels& pixels) : pixels_{&pixels} {
+    to_right_and_down_.resize(pixels.depth.size_px());
+    HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_);
+}
+
+float SurfaceLinks::depth_of(ObjectId id, int x, int y) const {
+    const int at_x = std::clamp(x, 0, size_px().x - 1);
+    const int at_y = std::clamp(y, 0, size_px().y - 1);
+    const float depth = pixels_->depth.at(at_x, at_y);
+    return pixels_->object_id.at(at_x, at_y) == id && is_usable_depth(depth) ? depth : -1.0F;
+}
+
+bool SurfaceLinks::diagonal(int x, int y, int step_x) const {
+    const ObjectId id = pixels_->object_id.at(std::clamp(x, 0, size_px().x - 1), std::clamp(y, 0, size_px().y - 1));
+    return on_one_surface(depth_of(id, x - step_x, y - 1), depth_of(id, x, y), depth_of(id, x + step_x, y + 1),
+                          depth_of(id, x + 2 * step_x, y + 2));
+}
+
+std::uint8_t SurfaceLinks::all_links(int x, int y) const {
+    unsigned links = sides(x, y);
+    if (diagonal(x, y, 1)) links |= kLinkFalling;
+    if (diagonal(x + 1, y, -1)) links |= kLinkRising;
+    return static_cast<std::uint8_t>(links);
+}
+
+bool on_one_surface(float before, float a, float b, float after) {
+    if (a < 0.0F || b < 0.0F) return false;
+    if (a == 0.0F || b == 0.0F) return a == b;
+    const float step = b - a;
+    const float size = std::abs(step);
+    if (size <= kLevelDepthPart * std::min(a, b)) return true;
+    const float allowed = kSlopeChangePart * size;
+    const bool like_before = before > 0.0F && std::abs(step - (a - before)) <= allowed;
+    const bool like_after = after > 0.0F && std::abs(step - (after - b)) <= allowed;
+    return like_before || like_after;
+}
+
+}  // namespace lw
+#endif

@@ -1,0 +1,63 @@
+#pragma once
+/// Which neighbouring pixels lie on one surface.
+
+#include <cstdint>
+#include <vector>
+
+#include "core/image.h"
+#include "frame_link/rendered_frame.h"
+
+namespace lw {
+
+/// Each side and diagonal of a cell may be a link: both of its ends on one surface.
+enum CellLink : std::uint8_t {
+    kLinkTop = 1,       ///< corners 0-1
+    kLinkBottom = 2,    ///< 2-3
+    kLinkLeft = 4,      ///< 0-2
+    kLinkRight = 8,     ///< 1-3
+    kLinkFalling = 16,  ///< 0-3
+    kLinkRising = 32,   ///< 1-2
+};
+
+/// Links of an image. Coordinates may exceed the image by a pixel; the last pixels count again there.
+class SurfaceLinks {
+public:
+    /// Any thread; `pixels` must outlive this.
+    explicit SurfaceLinks(const CpuPixels& pixels);
+
+    [[nodiscard]] glm::ivec2 size_px() const { return to_right_and_down_.size_px(); }
+    [[nodiscard]] const CpuPixels& pixels() const { return *pixels_; }
+
+    /// Is (x, y) on one surface with its right (lower) neighbour? Inside the image only.
+    [[nodiscard]] bool to_right(int x, int y) const { return (to_right_and_down_.at(x, y) & 1) != 0; }
+    [[nodiscard]] bool down(int x, int y) const { return (to_right_and_down_.at(x, y) & 2) != 0; }
+
+    /// The sides of the cell at (x, y): CellLink bits.
+    [[nodiscard]] std::uint8_t sides(int x, int y) const {
+        const int x1 = x + 1 < size_px().x ? x + 1 : x;
+        const int y1 = y + 1 < size_px().y ? y + 1 : y;
+        const unsigned here = to_right_and_down_.at(x, y);
+        const unsigned right = to_right_and_down_.at(x1, y);
+        const unsigned below = to_right_and_down_.at(x, y1);
+        return static_cast<std::uint8_t>((here & 1U) | (below & 1U) << 1U | (here & 2U) << 1U | (right & 2U) << 2U);
+    }
+    /// Sides and diagonals.
+    [[nodiscard]] std::uint8_t all_links(int x, int y) const;
+
+    /// Depth for a surface of object `id`, negative where the pixel is of another object or its depth is unusable.
+    [[nodiscard]] float depth_of(ObjectId id, int x, int y) const;
+
+private:
+    [[nodiscard]] bool diagonal(int x, int y, int step_x) const;
+
+    const CpuPixels* pixels_;
+    Image<std::uint8_t> to_right_and_down_;
+};
+
+/// True for cells whose sides join all four corners: three of them do.
+[[nodiscard]] inline bool joins_all_corners(std::uint8_t sides) {
+    constexpr std::uint32_t kThreeOrMore = 1U << 7U | 1U << 11U | 1U << 13U | 1U << 14U | 1U << 15U;
+    return (kThreeOrMore >> (sides & 15U) & 1U) != 0;
+}
+
+}  // namespace lw

@@ -1,0 +1,23 @@
+#pragma once
+/// How exactly depths must agree to be one surface, or one plane.
+
+namespace lw {
+
+/// A step of 1 % of the depth displaces the parallax by as much: 0.5 px for a head that moved 10 cm before something
+/// 1 m away, which is less than what a wrong edge would show.
+inline constexpr float kLevelDepthPart = 0.01F;
+
+/// Samples averaged per surface sit up to a quarter of a pixel beside the pixel's centre, so slopes differ by half of
+/// themselves at worst between two neighbours on one plane.
+inline constexpr float kSlopeChangePart = 0.5F;
+
+/// A pixel of a patch may lie off the patch's plane by this part of its depth: 0.05 px for 10 cm of motion at 1 m.
+inline constexpr float kPlaneDepthPart = 1e-3F;
+
+/// Pieces of one surface overlap by this much of a source pixel, so that rounding leaves no crack between them.
+inline constexpr float kPatchOverlapPx = 0.02F;
+
+/// Edge cells must hardly overlap: a pixel in two of them would count twice.
+inline constexpr float kEdgeOverlapPx = 1e-4F;
+
+}  // namespace lw

@@ -56,6 +56,7 @@ Status run_demo(const Options& given) {
     describe_scene(report, **scene);
     describe_settings(report, options);
     describe_live_run(report, options, *result);
+    if (const Status csv = write_text(options.out / "refreshes.csv", refreshes_csv(*result)); !csv) return csv;
     if (const Status written = report.write(options.report); !written) return written;
     if (!options.quiet) {
         std::fprintf(stderr, "%swrote    %s, %s\n", live_summary_text(options, *result).c_str(), options.report.c_str(),

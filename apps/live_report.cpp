@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
 namespace lw {
 namespace {
 
@@ -16,6 +20,11 @@ double published_hz(const std::vector<ClientFrameRecord>& frames) {
     if (frames.size() < 2) return 0.0;
     const Duration span = frames.back().times.published - frames.front().times.published;
     return static_cast<double>(frames.size() - 1) / to_seconds(span);
+}
+
+std::string_view cause_name(const DisplayRecord& refresh) {
+    if (!refresh.missed()) return "";
+    return refresh.cause == MissCause::late_wakeup ? "late_wakeup" : "own";
 }
 
 std::string percentiles(const std::optional<Distribution>& distribution) {
@@ -77,6 +86,22 @@ void describe_live_run(Report& report, const Options& options, const LiveResult&
     report.set("counters/unknown_object_pixels", summary.unknown_object_pixels);
     report.set("counters/bad_head_poses", result.bad_head_poses);
     report.set("interrupted", result.interrupted);
+}
+
+std::string refreshes_csv(const LiveResult& result) {
+    std::string csv =
+        "refresh,frame,frame_pose_sampled_ms,pose_sampled_ms,planned_wake_ms,latched_ms,warp_begin_ms,warp_end_ms,"
+        "presented_ms,scanout_begin_ms,photon_ms,missed\n";
+    for (const DisplayRecord& refresh : result.refreshes) {
+        const auto ms = [](TimePoint time) { return fmt::format("{:.3f}", to_ms(time.time_since_epoch())); };
+        const auto made_ms = [&](TimePoint time) { return refresh.presented ? ms(time) : std::string{}; };
+        csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", refresh.refresh, refresh.frame_index,
+                           made_ms(refresh.frame_pose_sampled), made_ms(refresh.pose_sampled), ms(refresh.planned_wake),
+                           made_ms(refresh.latched), made_ms(refresh.warp_begin), made_ms(refresh.warp_end),
+                           made_ms(refresh.presented.value_or(TimePoint{})), ms(refresh.scanout_begin),
+                           ms(refresh.photon), cause_name(refresh));
+    }
+    return csv;
 }
 
 std::string live_summary_text(const Options& options, const LiveResult& result) {

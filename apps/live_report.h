@@ -31,6 +31,9 @@ struct LiveSummary {
 /// `display`, `app`, `latency_ms`, `warp_ms`, `scheduling` and the rest.
 void describe_live_run(Report& report, const Options& options, const LiveResult& result);
 
+/// Every refresh with the times of its life, milliseconds since the run's clock began; empty where there is none.
+[[nodiscard]] std::string refreshes_csv(const LiveResult& result);
+
 /// A few lines, for people.
 [[nodiscard]] std::string live_summary_text(const Options& options, const LiveResult& result);
 

@@ -176,6 +176,7 @@ bool LiveSession::is_over(TimePoint& end) const {
 // Client's thread.
 
 void LiveSession::client_thread() {
+    name_thread("lw-client");
     if (!realtime_allowed_) result_.scheduling = step_back() ? Scheduling::nice : Scheduling::none;
     std::unique_ptr<gl::Context> context;
     std::unique_ptr<SceneRenderer> renderer;
@@ -234,6 +235,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
 // Server's thread.
 
 void LiveSession::server_thread() {
+    name_thread("lw-server");
     std::unique_ptr<gl::Context> context;
     const Status ready = prepare_server(context);
     server_.ready.set_value(ready);

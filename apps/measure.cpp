@@ -35,6 +35,10 @@ Status run_measure(const Options& given) {
     describe_scene(report, **scene);
     describe_settings(report, options);
     describe_live_run(report, options, *result);
+    if (!options.out.empty()) {
+        const Status csv = write_text(options.out / "refreshes.csv", refreshes_csv(*result));
+        if (!csv) return csv;
+    }
     if (options.report.empty()) {
         std::fputs(report.text().c_str(), stdout);
     } else if (const Status written = report.write(options.report); !written) {

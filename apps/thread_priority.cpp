@@ -48,6 +48,8 @@ bool step_back() {
 
 void wake_exactly() { prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL); }
 
+void name_thread(const char* name) { pthread_setname_np(pthread_self(), name); }
+
 std::string_view realtime_advice() {
     return "no real-time priority: allow it with 'ulimit -r 10' (rtprio in /etc/security/limits.conf)";
 }

@@ -27,6 +27,9 @@ enum class Scheduling : std::uint8_t {
 /// Has the calling thread woken as exactly as its timers say; ordinary threads may otherwise be 50 us late.
 void wake_exactly();
 
+/// Names the calling thread in debuggers and profilers. At most 15 characters.
+void name_thread(const char* name);
+
 /// One line that says how to get real-time priority.
 [[nodiscard]] std::string_view realtime_advice();
 

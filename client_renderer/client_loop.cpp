@@ -23,7 +23,7 @@ ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed
       exchange_{exchange},
       predictor_{std::move(predictor)},
       prepare_{std::move(prepare)},
-      settings_{settings} {
+      settings_{std::move(settings)} {
     LW_CHECK(predictor_ != nullptr, "a client without a predictor");
     records_.reserve(4096);  // minutes of frames: growing would cost a frame now and then
 }

@@ -18,6 +18,11 @@ void replace(const gl::Buffer& buffer, const std::vector<T>& elements) {
                       GL_STREAM_DRAW);
 }
 
+// GL takes an offset into the bound buffer as a pointer.
+const void* command_offset(std::size_t command) {
+    return reinterpret_cast<const void*>(command * sizeof(DrawCommand));  // NOLINT(performance-no-int-to-ptr)
+}
+
 void begin(const RenderTargets& targets, const gl::VertexArray& vertex_array, const gl::Buffer& commands) {
     targets.gbuffer.bind();
     glBindVertexArray(vertex_array.id());
@@ -58,8 +63,7 @@ std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targe
     for (const DrawRange& range : list.ranges()) {
         gpu_scene_.bind(gpu_scene_.batches()[static_cast<std::size_t>(range.batch)]);
         glFrontFace(range.mirrored ? GL_CW : GL_CCW);
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                                    reinterpret_cast<const void*>(range.first_command * sizeof(DrawCommand)),
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, command_offset(range.first_command),
                                     static_cast<GLsizei>(range.command_count), 0);
     }
     end();
@@ -77,8 +81,7 @@ void GBufferPass::warm_up(const RenderTargets& targets) {
     begin(targets, vertex_array_, commands_);
     for (std::size_t b = 0; b < commands.size(); ++b) {
         gpu_scene_.bind(gpu_scene_.batches()[b]);
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
-                                    reinterpret_cast<const void*>(b * sizeof(DrawCommand)), 1, 0);
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, command_offset(b), 1, 0);
     }
     end();
 }

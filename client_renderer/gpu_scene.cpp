@@ -1,7 +1,6 @@
 #include "client_renderer/gpu_scene.h"
 
 #include <algorithm>
-#include <cstring>
 #include <tuple>
 
 #include "shaders/client_blocks.h"
@@ -98,13 +97,13 @@ void GpuScene::upload_materials() {
     glGetIntegerv(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT, &alignment);
     const auto unit = static_cast<std::size_t>(std::max(alignment, 1));
     const std::size_t stride = (sizeof(shader::MaterialBlock) + unit - 1) / unit * unit;
-    std::vector<std::byte> bytes(stride * batches_.size());
+    const auto size_bytes = static_cast<GLsizeiptr>(stride * std::max<std::size_t>(batches_.size(), 1));
+    materials_ = gl::make_buffer(size_bytes, nullptr, GL_DYNAMIC_STORAGE_BIT);
     for (std::size_t b = 0; b < batches_.size(); ++b) {
         const shader::MaterialBlock block = block_of(material_of(batches_[b]));
-        std::memcpy(bytes.data() + b * stride, &block, sizeof block);
         batches_[b].block_offset = static_cast<std::ptrdiff_t>(b * stride);
+        glNamedBufferSubData(materials_.id(), batches_[b].block_offset, sizeof block, &block);
     }
-    materials_ = static_buffer(bytes);
 }
 
 Status GpuScene::compile_programs() {

@@ -56,7 +56,8 @@ void LightTiles::build(const std::vector<scene::PointLight>& lights, const Camer
         const TileRect rect = touched_tiles(eye_from_world * position_relative, lights[i].range_m, camera, tiles);
         for (int y = rect.first.y; y <= rect.last.y; ++y) {
             for (int x = rect.first.x; x <= rect.last.x; ++x) {
-                glm::uvec2& mask = masks_[static_cast<std::size_t>(y * tiles.x + x)];
+                glm::uvec2& mask = masks_[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.x) +
+                                          static_cast<std::size_t>(x)];
                 mask[i < 32 ? 0 : 1] |= 1U << (i % 32);
             }
         }

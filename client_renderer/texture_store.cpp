@@ -49,7 +49,8 @@ void TextureStore::upload(const scene::Scene& scene, const scene::TextureUse& us
     gl::Texture& texture = (srgb ? srgb_ : linear_)[image];
     if (texture) return;
     const ColourImage& pixels = scene.images[image].pixels;
-    const int levels = std::bit_width(static_cast<unsigned>(std::max(pixels.width(), pixels.height())));
+    const auto levels =
+        static_cast<int>(std::bit_width(static_cast<unsigned>(std::max(pixels.width(), pixels.height()))));
     texture = gl::Texture{pixels.size_px(), srgb ? GLenum{GL_SRGB8_ALPHA8} : GLenum{GL_RGBA8}, levels};
     texture.upload(GL_RGBA, GL_UNSIGNED_BYTE, pixels.pixels().data());
     glGenerateTextureMipmap(texture.id());

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "scene/gltf.h"
+#include "tests/scene/resident_memory.h"
 #include "tests/support/shared_data.h"
 
 namespace lw::scene {
@@ -42,15 +43,6 @@ std::vector<IndexedFile> indexed_files() {
     return files;
 }
 
-/// Largest resident size of this process so far, bytes (Linux: /proc/self/status in kB).
-std::uint64_t peak_resident_bytes() {
-    std::ifstream status{"/proc/self/status"};
-    for (std::string line; std::getline(status, line);) {
-        if (line.rfind("VmHWM:", 0) == 0) return std::strtoull(line.c_str() + 6, nullptr, 10) * 1024;
-    }
-    return 0;
-}
-
 // Valid, and refused all the same: they demand an extension or a version that we do not have, or draw from a buffer
 // without data.
 const std::set<std::string> kRightlyRefused = {
@@ -62,13 +54,11 @@ const std::set<std::string> kRightlyRefused = {
     "magnum-plugins/GltfImporter/version-unsupported-min.gltf",
 };
 
-// Sanitizers slow the process down and keep freed memory.
+// Sanitizers slow the process down.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr double kMaxSeconds = 10.0;
-constexpr std::uint64_t kMaxResidentBytes = std::uint64_t{2} << 30;
 #else
 constexpr double kMaxSeconds = 2.0;
-constexpr std::uint64_t kMaxResidentBytes = std::uint64_t{512} << 20;
 #endif
 
 TEST(DataGltfBad, EveryFileLoadsOrIsRefusedWithOneLine) {
@@ -95,7 +85,7 @@ TEST(DataGltfBad, EveryFileLoadsOrIsRefusedWithOneLine) {
         }
         if (std::getenv("LW_SHOW_REFUSALS") != nullptr) std::printf("%s\n", message.c_str());
     }
-    EXPECT_LT(peak_resident_bytes(), kMaxResidentBytes);
+    EXPECT_LT(test::peak_resident_bytes(), test::kMaxResidentBytes);
 }
 
 }  // namespace

@@ -59,11 +59,9 @@ void describe_layer(Report& report, const std::string& path, const Layer& layer)
     const auto moving = std::count_if(ids.begin(), ids.end(), [](ObjectId id) { return id != 0; });
     double nearest_depth = 0.0;
     for (const float depth : depths) nearest_depth = std::max(nearest_depth, static_cast<double>(depth));
-    const std::array<double, 2> size_px{static_cast<double>(layer.camera.size_px.x),
-                                        static_cast<double>(layer.camera.size_px.y)};
     const FovTangents& fov = layer.camera.fov;
     const std::array<double, 4> tangents{fov.left, fov.right, fov.down, fov.up};
-    report.set(path + "/size_px", std::span<const double>{size_px});
+    report.set(path + "/size_px", layer.camera.size_px);
     report.set(path + "/fov_tangents", std::span<const double>{tangents});
     report.set(path + "/near_m", layer.camera.near_m);
     report.set(path + "/time_s", layer.scene_time_s);

@@ -67,6 +67,7 @@ void Report::set(std::string_view path, std::int64_t number) { tree_->at(path) =
 void Report::set(std::string_view path, std::uint64_t number) { tree_->at(path) = number; }
 void Report::set(std::string_view path, bool flag) { tree_->at(path) = flag; }
 void Report::set(std::string_view path, std::string_view text) { tree_->at(path) = std::string{text}; }
+void Report::set(std::string_view path, glm::ivec2 size_px) { tree_->at(path) = {size_px.x, size_px.y}; }
 void Report::set(std::string_view path, std::span<const double> numbers) {
     Json array = Json::array();
     for (const double number : numbers) array.push_back(number_or_null(number));
@@ -125,8 +126,7 @@ void describe_settings(Report& report, const Options& options) {
     set("truth_samples", options.truth_samples);
     if (options.seed) set("seed", *options.seed);
     report.set("method", options.method);
-    const double size_px[] = {static_cast<double>(options.size_px.x), static_cast<double>(options.size_px.y)};
-    report.set("size_px", std::span<const double>{size_px});
+    report.set("size_px", options.size_px);
 }
 
 Status make_output_folder(const std::filesystem::path& folder) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <memory>
 #include <optional>
 #include <span>
@@ -38,6 +39,7 @@ public:
     void set(std::string_view path, std::string_view text);
     void set(std::string_view path, const char* text) { set(path, std::string_view{text}); }
     void set(std::string_view path, const std::string& text) { set(path, std::string_view{text}); }
+    void set(std::string_view path, glm::ivec2 size_px);                        ///< an array of two whole numbers
     void set(std::string_view path, std::span<const double> numbers);           ///< an array
     void set(std::string_view path, const std::vector<std::string>& texts);     ///< an array
     void set(std::string_view path, const Distribution& distribution);          ///< {"mean","min","p5",...}

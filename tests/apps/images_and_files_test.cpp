@@ -134,7 +134,7 @@ TEST(Info, OfAFrameFolder) {
     const Json json = Json::parse(run.out);
     EXPECT_EQ(json.at("kind"), "frame");
     const Json& layer = json.at("layers").at("main");
-    EXPECT_EQ(layer.at("size_px"), (Json{32.0, 24.0}));
+    EXPECT_EQ(layer.at("size_px"), (Json{32, 24}));
     EXPECT_EQ(layer.at("objects"), 1);
     EXPECT_NEAR(layer.at("nearest_m").get<double>(), 5.0, 1e-5) << "0.05 m / 0.01 as a float";
     EXPECT_NEAR(layer.at("background_fraction").get<double>(), 1.0 / (32 * 24), 1e-12);

@@ -8,6 +8,7 @@
 
 #include "core/image_io.h"
 #include "core/png_encoder.h"
+#include "core/png_inflate_check.h"
 
 namespace lw {
 namespace {
@@ -85,6 +86,9 @@ Result<ColourImage> decode_image(std::span<const std::uint8_t> bytes, const std:
     }
     const Result<glm::ivec2> size_px = checked_size(bytes, where);
     if (!size_px) return size_px.error();
+    if (!png_data_fits(bytes, *size_px)) {
+        return Error{"the image data is damaged, or larger than its picture", where, "write or copy the file again"};
+    }
     glm::ivec2 decoded_px{0};
     int channels = 0;
     const std::unique_ptr<stbi_uc, FreeStb> decoded{stbi_load_from_memory(

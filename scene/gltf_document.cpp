@@ -1,8 +1,5 @@
 #include "scene/gltf_document.h"
 
-#include <cstring>
-#include <string_view>
-
 namespace lw::scene {
 namespace {
 
@@ -14,46 +11,24 @@ constexpr std::uint32_t kChunkBinary = 0x004E4942;  // "BIN"
 constexpr std::size_t kHeaderBytes = 12;
 constexpr std::size_t kChunkHeaderBytes = 8;
 
-// What nlohmann's tree costs on a 64-bit system: 16 bytes per value, doubled by growing arrays; an object's entry has a
-// map node with the key besides.
-constexpr std::uint64_t kBytesPerValue = 32;
-constexpr std::uint64_t kBytesPerKey = 96;
-
 std::uint32_t little_endian_u32(std::span<const std::uint8_t> bytes, std::size_t offset) {
     return static_cast<std::uint32_t>(bytes[offset]) | static_cast<std::uint32_t>(bytes[offset + 1]) << 8 |
            static_cast<std::uint32_t>(bytes[offset + 2]) << 16 | static_cast<std::uint32_t>(bytes[offset + 3]) << 24;
 }
 
-std::uint64_t cost_of_event(json::parse_event_t event, const json& parsed) {
-    if (event == json::parse_event_t::key) return kBytesPerKey + parsed.get_ref<const std::string&>().size();
-    if (event != json::parse_event_t::value) return kBytesPerValue;
-    return kBytesPerValue + (parsed.is_string() ? parsed.get_ref<const std::string&>().size() : 0);
-}
-
-/// One line and without the library's identifiers: "[json.exception.parse_error.101] parse error at ..." -> "parse
-/// ...".
-std::string parser_message(const json::exception& exception) {
-    std::string_view message = exception.what();
-    const std::size_t bracket = message.find("] ");
-    if (bracket != std::string_view::npos) message.remove_prefix(bracket + 2);
-    return std::string{message.substr(0, 160)};
-}
-
+/// Memory of the tree stays charged as `document.json`.
 void parse_json(std::span<const std::uint8_t> text, MemoryBudget& budget, GltfDocument& document) {
     if (text.empty()) refuse("the file holds no JSON", "");
-    const auto watch = [&budget](int depth, json::parse_event_t event, const json& parsed) {
-        if (depth > kMaxJsonDepth) refuse("JSON is nested too deep", "");
-        budget.charge(cost_of_event(event, parsed), "");
-        return true;
-    };
-    const std::uint64_t before_bytes = budget.charged_bytes();
+    // The parser collects a string before it hands it over; its buffer may have doubled.
+    const TemporaryCharge longest_string{budget, text.size(), 2, ""};
+    document.json = json_cost(text, kMaxJsonDepth, budget.left_bytes());
+    budget.charge(document.json.bytes(), "");
     try {
-        document.root = json::parse(text.begin(), text.end(), watch);
-    } catch (const json::exception& exception) {
-        refuse("broken JSON: " + parser_message(exception), "");
+        document.root = json::parse(text.begin(), text.end());
+    } catch (const json::exception&) {
+        refuse("broken JSON", "");  // json_cost() has seen the same text and found no fault
     }
     if (!document.root.is_object()) refuse("the JSON is not an object", "");
-    document.json_bytes = budget.charged_bytes() - before_bytes;
 }
 
 /// The chunk at `offset`; moves `offset` behind it.

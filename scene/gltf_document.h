@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "scene/gltf_refusal.h"
+#include "scene/json_cost.h"
 
 namespace lw::scene {
 
@@ -16,7 +17,7 @@ struct GltfDocument {
     bool has_binary_chunk = false;
     std::span<const std::uint8_t> binary_chunk;  ///< into `file`
     nlohmann::json root;                         ///< an object, at most kMaxJsonDepth deep
-    std::uint64_t json_bytes = 0;                ///< what `root` is charged with
+    JsonCost json;                               ///< what `root` is charged with
 };
 
 /// Deeper nesting is refused: parsers and destructors recurse, and no real glTF file is even 20 deep.

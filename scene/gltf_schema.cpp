@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace lw::scene {
 namespace {
@@ -10,6 +11,7 @@ using nlohmann::json;
 
 enum class Kind : std::uint8_t {
     text,
+    uri,  // a text of any length
     boolean,
     number,
     integer,  // 0 .. 2^31 - 1
@@ -34,8 +36,10 @@ struct Field {
 constexpr bool kRequired = true;
 constexpr bool kOptional = false;
 constexpr Field kEnd{};
+constexpr std::size_t kMaxTextBytes = 65536;
 
 constexpr Field text(const char* name, bool required = kOptional) { return {name, Kind::text, required}; }
+constexpr Field uri(const char* name) { return {name, Kind::uri}; }
 constexpr Field boolean(const char* name) { return {name, Kind::boolean}; }
 constexpr Field number(const char* name) { return {name, Kind::number}; }
 constexpr Field integer(const char* name, bool required = kOptional) { return {name, Kind::integer, required}; }
@@ -76,8 +80,8 @@ constexpr Field kViewExtensions[] = {object("EXT_meshopt_compression", kMeshopt)
 constexpr Field kBufferView[] = {index("buffer", "buffers", kRequired), integer("byteOffset"),
                                  integer("byteLength", kRequired),      integer("byteStride"),
                                  object("extensions", kViewExtensions), kEnd};
-constexpr Field kBuffer[] = {text("uri"), integer("byteLength", kRequired), kEnd};
-constexpr Field kImage[] = {text("name"), text("uri"), text("mimeType"), index("bufferView", "bufferViews"), kEnd};
+constexpr Field kBuffer[] = {uri("uri"), integer("byteLength", kRequired), kEnd};
+constexpr Field kImage[] = {text("name"), uri("uri"), text("mimeType"), index("bufferView", "bufferViews"), kEnd};
 constexpr Field kSampler[] = {integer("magFilter"), integer("minFilter"), integer("wrapS"), integer("wrapT"), kEnd};
 constexpr Field kTexture[] = {index("sampler", "samplers"), index("source", "images"), kEnd};
 
@@ -176,7 +180,7 @@ class Checker {
 public:
     explicit Checker(const json& root) : root_{root} {}
 
-    [[nodiscard]] json check_object(const json& value, const Field* fields, const Place* place) const {
+    [[nodiscard]] json check_object(json& value, const Field* fields, const Place* place) const {
         if (!value.is_object()) refuse("expected an object", path_of(place));
         json result = json::object();
         for (const Field* field = fields; *field->name != '\0'; ++field) {
@@ -194,11 +198,12 @@ public:
 private:
     [[nodiscard]] static std::string path_of(const Place* place) { return place != nullptr ? place->path() : ""; }
 
-    [[nodiscard]] json check(const json& value, const Field& field, const Place& place) const {
+    [[nodiscard]] json check(json& value, const Field& field, const Place& place) const {
         switch (field.kind) {
             case Kind::text:
-                if (!value.is_string()) refuse("expected a text", place.path());
-                return value;
+                return check_text(value, kMaxTextBytes, place);
+            case Kind::uri:
+                return check_text(value, std::numeric_limits<std::size_t>::max(), place);
             case Kind::boolean:
                 if (!value.is_boolean()) refuse("expected true or false", place.path());
                 return value;
@@ -219,6 +224,13 @@ private:
                 return check_map(value, field, place);
         }
         return {};
+    }
+
+    /// Moves the text: an embedded buffer is most of its file.
+    [[nodiscard]] static json check_text(json& value, std::size_t max_bytes, const Place& place) {
+        if (!value.is_string()) refuse("expected a text", place.path());
+        if (value.get_ref<const std::string&>().size() > max_bytes) refuse("the text is too long", place.path());
+        return std::move(value);
     }
 
     [[nodiscard]] static json check_number(const json& value, const Place& place) {
@@ -248,7 +260,7 @@ private:
         return result;
     }
 
-    [[nodiscard]] json check_array(const json& value, const Field& field, const Place& place) const {
+    [[nodiscard]] json check_array(json& value, const Field& field, const Place& place) const {
         if (!value.is_array()) refuse("expected an array", place.path());
         if (field.kind == Kind::numbers && value.size() != field.length) {
             refuse(fmt::format("expected {} numbers, found {}", field.length, value.size()), place.path());
@@ -290,6 +302,6 @@ private:
 
 }  // namespace
 
-json checked_gltf(const json& root) { return Checker{root}.check_object(root, kRoot, nullptr); }
+json checked_gltf(json root) { return Checker{root}.check_object(root, kRoot, nullptr); }
 
 }  // namespace lw::scene

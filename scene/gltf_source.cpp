@@ -90,6 +90,20 @@ void patch_accessor_types(json& root) {
     }
 }
 
+std::uint64_t uri_bytes_of(const json& objects) {
+    std::uint64_t bytes = 0;
+    for (const json& object : objects) {
+        if (object.contains("uri")) bytes += object["uri"].get_ref<const std::string&>().size();
+    }
+    return bytes;
+}
+
+json checked_root(GltfSource& source, const JsonCost& cost) {
+    // The checked copy has a structure of its own; the texts move into it.
+    const TemporaryCharge copy{source.budget, 1, cost.structure_bytes, ""};
+    return checked_gltf(std::move(source.document.root));
+}
+
 /// tinygltf's complaints are lines; we show one.
 std::string one_line(std::string text) {
     while (!text.empty() && text.back() == '\n') text.pop_back();
@@ -117,19 +131,28 @@ void open_gltf(const std::filesystem::path& path, GltfSource& source) {
     if (!bytes.ok()) refuse(bytes.error().what, "", bytes.error().mend);
     source.document = parse_gltf_document(std::move(*bytes), source.budget);
     check_gltf_features(source.document.root, source.warnings);
-    // The checked copy, the text for tinygltf and tinygltf's own tree, each at most as large as our tree.
-    const TemporaryCharge copies{source.budget, 3, source.document.json_bytes, ""};
-    json root = checked_gltf(source.document.root);
-    source.document.root = json{};
-    const json buffers = take(root, "buffers");
+    const JsonCost cost = source.document.json;
+    json root = checked_root(source, cost);
+    std::uint64_t uri_bytes = 0;
+    {
+        const json buffers = take(root, "buffers");
+        uri_bytes = uri_bytes_of(buffers);
+        source.buffers = read_buffers(buffers, source.document.has_binary_chunk, source.document.binary_chunk,
+                                      source.folder, source.budget);
+    }
     source.images = take(root, "images");
-    source.buffers = read_buffers(buffers, source.document.has_binary_chunk, source.document.binary_chunk,
-                                  source.folder, source.budget);
+    const std::uint64_t image_uri_bytes = uri_bytes_of(source.images);
     charge_model(root, source.budget);
     charge_animations(root, source.budget);
     patch_index_accessors(root, source.accessors_without_view);
     patch_accessor_types(root);
-    parse_model(root, source);
+    {
+        // The text for tinygltf and its own tree, each at most as large as ours without what was taken out.
+        const TemporaryCharge copies{source.budget, 2, cost.bytes() - uri_bytes - image_uri_bytes, ""};
+        parse_model(root, source);
+    }
+    source.budget.release(cost.bytes());
+    source.budget.charge(image_uri_bytes, "images");
 }
 
 void warn_once(GltfSource& source, const std::string& warning) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "core/colour.h"
 
@@ -30,6 +31,32 @@ const ChannelTables& channel_tables() {
     return tables;
 }
 
+using Cubic = std::array<double, 4>;
+
+// Through the curve at the four Chebyshev nodes of the octave: close to the smallest largest error.
+Cubic cubic_of_octave(std::size_t octave) {
+    const double low = octave == 0 ? 0.0 : std::ldexp(1.0, static_cast<int>(octave));
+    const double high = std::ldexp(1.0, static_cast<int>(octave) + 1);
+    std::array<double, 4> x{};
+    std::array<double, 4> difference{};  // Newton's divided differences
+    for (std::size_t i = 0; i < 4; ++i) {
+        const double node = std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / 4.0);
+        x[i] = 0.5 * (low + high) + 0.5 * (high - low) * node;
+        difference[i] = 255.0 * srgb_from_linear(std::min(1.0, x[i] / kLinearOne));
+    }
+    for (std::size_t order = 1; order < 4; ++order) {
+        for (std::size_t i = 3; i >= order; --i) {
+            difference[i] = (difference[i] - difference[i - 1]) / (x[i] - x[i - order]);
+        }
+    }
+    Cubic cubic{difference[3], 0.0, 0.0, 0.0};
+    for (std::size_t i = 3; i-- > 0;) {  // times (x - x_i), plus the next difference
+        for (std::size_t power = 3; power > 0; --power) cubic[power] = cubic[power - 1] - x[i] * cubic[power];
+        cubic[0] = difference[i] - x[i] * cubic[0];
+    }
+    return cubic;
+}
+
 }  // namespace
 
 void linearise(const ColourImage& image, std::vector<std::uint64_t>& linear) {
@@ -42,15 +69,19 @@ void linearise(const ColourImage& image, std::vector<std::uint64_t>& linear) {
     std::fill(linear.begin() + static_cast<std::ptrdiff_t>(colours.size()), linear.end(), 0);
 }
 
-const std::array<std::uint8_t, kLinearOne + 1>& srgb8_from_linear15_table() {
-    static const std::array<std::uint8_t, kLinearOne + 1> table = [] {
-        std::array<std::uint8_t, kLinearOne + 1> made{};
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            made[i] = srgb8_from_linear(static_cast<float>(i) / static_cast<float>(kLinearOne));
+const SrgbCubics& srgb_cubics() {
+    static const SrgbCubics cubics = [] {
+        SrgbCubics made;
+        for (std::size_t octave = 0; octave < 16; ++octave) {
+            const Cubic cubic = cubic_of_octave(octave);
+            made.constant[octave] = static_cast<float>(cubic[0]);
+            made.first[octave] = static_cast<float>(cubic[1]);
+            made.second[octave] = static_cast<float>(cubic[2]);
+            made.third[octave] = static_cast<float>(cubic[3]);
         }
         return made;
     }();
-    return table;
+    return cubics;
 }
 
 }  // namespace lw

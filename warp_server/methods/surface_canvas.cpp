@@ -1,9 +1,11 @@
 #include "warp_server/methods/surface_canvas.h"
 
 #include <algorithm>
+#include <cstring>
 #include <tuple>
 
 #include "core/colour.h"
+#include "warp_server/methods/surface_kernels.h"
 
 namespace lw {
 
@@ -13,7 +15,7 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band) {
     const auto width = static_cast<std::size_t>(out.depth.width());
     first_index_ = static_cast<std::size_t>(band.begin) * width;
     const std::size_t count = static_cast<std::size_t>(band.end - band.begin) * width;
-    std::fill_n(out.depth.pixels().data() + first_index_, count, kNothing);
+    std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
     fragments_.clear();
     touched_.clear();
     if (newest_.size() != count) newest_.assign(count, -1);  // else finish() left it clear
@@ -21,10 +23,8 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band) {
 
 void SurfaceCanvas::finish() {
     for (const std::uint32_t touched : touched_) composite(touched);
-    const float* depths = frame_->depth.pixels().data() + first_index_;
-    Coverage* coverage = frame_->coverage.pixels().data() + first_index_;
-    const std::size_t count = newest_.size();
-    for (std::size_t i = 0; i < count; ++i) coverage[i] = depths[i] >= 0.0F ? Coverage::reached : Coverage::hole;
+    mark_coverage(frame_->depth.pixels().data() + first_index_, newest_.size(),
+                  frame_->coverage.pixels().data() + first_index_);
 }
 
 // Nearest first, each over what is behind it; the farthest surface takes what is left, because the surfaces of one

@@ -40,7 +40,7 @@ private:
         float coverage;
         std::int32_t next;  // index of the pixel's fragment before, or -1
     };
-    static constexpr float kNothing = -1.0F;
+    static constexpr int kNothingByte = 0xBF;  // four of them make the float -1.498: farther than every depth
 
     void composite(std::size_t touched);
 

@@ -75,6 +75,18 @@ std::uint64_t bits_of(D d, M mask) {
     return bits;
 }
 
+using DF = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<DF>;
+using DU = hn::RebindToUnsigned<DF>;
+using VF = hn::Vec<DF>;
+
+// Target pixels laid back onto a patch.
+struct Solved {
+    VF dx;  // place in the source relative to the patch's origin
+    VF dy;
+    VF depth;  // in the target
+};
+
 class Painter {
 public:
     Painter(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind)
@@ -87,7 +99,7 @@ public:
           depths_{canvas.frame().depth.pixels().data()},
           colours_{canvas.frame().colour.pixels().data()},
           linear_{input.prepared->linear_colours.data()},
-          encode_{srgb8_from_linear15_table().data()} {}
+          cubics_{srgb_cubics()} {}
 
     void paint() {
         const hn::ScalableTag<float> d;
@@ -218,126 +230,229 @@ private:
 
     // Solves every pixel of the patch's box, as many at once as there are lanes, and paints those inside of it.
     HWY_INLINE void paint_one(std::size_t patch, std::size_t lane, const PlacedPatches& placed) {
-        const hn::ScalableTag<float> d;
-        using V = hn::Vec<decltype(d)>;
-        const hn::RebindToSigned<decltype(d)> di;
-        const int lanes = static_cast<int>(hn::Lanes(d));
-        const auto set = [&](float value) { return hn::Set(d, value); };
-        const V w = set(placed.w[lane]);
-        const V w_x = set(placed.w_x[lane]);
-        const V w_y = set(placed.w_y[lane]);
-        const V inverse_xx = set(placed.inverse_xx[lane]);
-        const V inverse_xy = set(placed.inverse_xy[lane]);
-        const V inverse_yx = set(placed.inverse_yx[lane]);
-        const V inverse_yy = set(placed.inverse_yy[lane]);
-        const V depth = set(list_.depth[patch]);
-        const V gradient_x = set(list_.gradient_x[patch]);
-        const V gradient_y = set(list_.gradient_y[patch]);
-        const V depth_factor = set(placed.depth_factor[lane]);
-        const V left = set(list_.left[patch]);
-        const V right = set(list_.right[patch]);
-        const V top = set(list_.top[patch]);
-        const V bottom = set(list_.bottom[patch]);
-        const V one = set(1.0F);
+        const auto set = [](float value) { return hn::Set(DF{}, value); };
+        const VF w = set(placed.w[lane]);
+        const VF w_x = set(placed.w_x[lane]);
+        const VF w_y = set(placed.w_y[lane]);
+        const VF inverse_xx = set(placed.inverse_xx[lane]);
+        const VF inverse_xy = set(placed.inverse_xy[lane]);
+        const VF inverse_yx = set(placed.inverse_yx[lane]);
+        const VF inverse_yy = set(placed.inverse_yy[lane]);
+        const VF depth = set(list_.depth[patch]);
+        const VF gradient_x = set(list_.gradient_x[patch]);
+        const VF gradient_y = set(list_.gradient_y[patch]);
+        const VF depth_factor = set(placed.depth_factor[lane]);
+        const VF left = set(list_.left[patch]);
+        const VF right = set(list_.right[patch]);
+        const VF top = set(list_.top[patch]);
+        const VF bottom = set(list_.bottom[patch]);
+        const VF one = set(1.0F);
         const bool is_whole = list_.corners[patch] == kAllCorners;
 
-        const int box_width = placed.x_end[lane] - placed.x_begin[lane];
-        const int columns = std::min(box_width, lanes);
+        const int lanes = static_cast<int>(hn::Lanes(DF{}));
+        const int columns = std::min(placed.x_end[lane] - placed.x_begin[lane], lanes);
         const int rows = lanes / columns;
-        const V lane_x = hn::LoadU(d, lane_offsets().x[columns]);
-        const V lane_y = hn::LoadU(d, lane_offsets().y[columns]);
-        const V row_limit = set(static_cast<float>(placed.y_end[lane]));
-        const V column_limit = set(static_cast<float>(placed.x_end[lane]));
-        const V inside_rows = set(static_cast<float>(rows));
-        HWY_ALIGN float depth_lanes[kMaxLanes];
-        HWY_ALIGN float dx_lanes[kMaxLanes];
-        HWY_ALIGN float dy_lanes[kMaxLanes];
-        HWY_ALIGN std::int32_t index_lanes[kMaxLanes];
+        const VF lane_x = hn::LoadU(DF{}, lane_offsets().x[columns]);
+        const VF lane_y = hn::LoadU(DF{}, lane_offsets().y[columns]);
+        const VF row_limit = set(static_cast<float>(placed.y_end[lane]));
+        const VF column_limit = set(static_cast<float>(placed.x_end[lane]));
+        const auto used = hn::Lt(lane_y, set(static_cast<float>(rows)));
         for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
-            const V pixel_y = hn::Add(lane_y, set(static_cast<float>(y)));
-            const V ey = hn::Sub(hn::Add(pixel_y, set(0.5F)), set(placed.target_y[lane]));
-            const V kx_of_row = hn::Mul(inverse_xy, ey);
-            const V ky_of_row = hn::Mul(inverse_yy, ey);
+            const VF pixel_y = hn::Add(lane_y, set(static_cast<float>(y)));
+            const VF ey = hn::Sub(hn::Add(pixel_y, set(0.5F)), set(placed.target_y[lane]));
+            const VF kx_of_row = hn::Mul(inverse_xy, ey);
+            const VF ky_of_row = hn::Mul(inverse_yy, ey);
+            const auto used_rows = hn::And(used, hn::Lt(pixel_y, row_limit));
             for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
-                const V pixel_x = hn::Add(lane_x, set(static_cast<float>(x)));
-                const V ex = hn::Sub(hn::Add(pixel_x, set(0.5F)), set(placed.target_x[lane]));
-                const V kx = hn::Add(hn::Mul(inverse_xx, ex), kx_of_row);
-                const V ky = hn::Add(hn::Mul(inverse_yx, ex), ky_of_row);
-                const V share = hn::Sub(hn::Sub(one, hn::Mul(w_x, kx)), hn::Mul(w_y, ky));
-                const V place_w = hn::Div(w, share);
-                const V dx = hn::Mul(place_w, kx);
-                const V dy = hn::Mul(place_w, ky);
-                const V source_depth = hn::Add(hn::Add(depth, hn::Mul(gradient_x, dx)), hn::Mul(gradient_y, dy));
-                const V target_depth = hn::Mul(hn::Mul(depth_factor, share), source_depth);
-                auto inside = hn::And(hn::Ge(dx, left), hn::Le(dx, right));
-                inside = hn::And(inside, hn::And(hn::Ge(dy, top), hn::Le(dy, bottom)));
-                inside = hn::And(inside, hn::And(hn::Gt(share, hn::Zero(d)), hn::Le(target_depth, one)));
-                inside = hn::And(inside, hn::And(hn::Lt(pixel_y, row_limit), hn::Lt(pixel_x, column_limit)));
-                inside = hn::And(inside, hn::Lt(lane_y, inside_rows));
-                const std::uint64_t bits = bits_of(d, inside);
-                if (bits == 0) continue;
-                const auto index = hn::Add(hn::Mul(hn::ConvertTo(di, pixel_y), hn::Set(di, target_width_)),
-                                           hn::ConvertTo(di, pixel_x));
-                hn::Store(index, di, index_lanes);
-                hn::Store(hn::Max(target_depth, hn::Zero(d)), d, depth_lanes);
-                hn::Store(dx, d, dx_lanes);
-                hn::Store(dy, d, dy_lanes);
-                if (is_whole) {
-                    paint_opaque(d, patch, bits, index_lanes, depth_lanes, dx, dy);
+                const VF pixel_x = hn::Add(lane_x, set(static_cast<float>(x)));
+                const VF ex = hn::Sub(hn::Add(pixel_x, set(0.5F)), set(placed.target_x[lane]));
+                const VF kx = hn::Add(hn::Mul(inverse_xx, ex), kx_of_row);
+                const VF ky = hn::Add(hn::Mul(inverse_yx, ex), ky_of_row);
+                const VF share = hn::Sub(hn::Sub(one, hn::Mul(w_x, kx)), hn::Mul(w_y, ky));
+                const VF place_w = hn::Div(w, share);
+                Solved solved;
+                solved.dx = hn::Mul(place_w, kx);
+                solved.dy = hn::Mul(place_w, ky);
+                const VF source_depth =
+                    hn::Add(hn::Add(depth, hn::Mul(gradient_x, solved.dx)), hn::Mul(gradient_y, solved.dy));
+                solved.depth = hn::Max(hn::Mul(hn::Mul(depth_factor, share), source_depth), hn::Zero(DF{}));
+                auto inside = hn::And(hn::Ge(solved.dx, left), hn::Le(solved.dx, right));
+                inside = hn::And(inside, hn::And(hn::Ge(solved.dy, top), hn::Le(solved.dy, bottom)));
+                inside = hn::And(inside, hn::And(hn::Gt(share, hn::Zero(DF{})), hn::Le(solved.depth, one)));
+                inside = hn::And(inside, hn::And(used_rows, hn::Lt(pixel_x, column_limit)));
+                if (hn::AllFalse(DF{}, inside)) continue;
+                if (!is_whole) {
+                    paint_fragments(patch, solved, pixel_x, pixel_y, inside);
+                } else if (rows == 1 && x + lanes <= target_width_) {
+                    paint_run(patch, solved, x, y, inside);
                 } else {
-                    paint_fragments(patch, bits, index_lanes, depth_lanes, dx_lanes, dy_lanes);
+                    paint_scattered(patch, solved, pixel_x, pixel_y, inside);
                 }
             }
         }
     }
 
-    template <class D, class V>
-    HWY_INLINE void paint_opaque(D d, std::size_t patch, std::uint64_t bits, const std::int32_t* indices,
-                                 const float* depths, V dx, V dy) {
-        const hn::RebindToSigned<D> di;
-        const auto whole_part = [&](V place, int size) {
-            return hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(size - 1)));
-        };
-        const V x = whole_part(hn::Add(hn::Set(d, list_.x[patch]), dx), source_size_px_.x);
-        const V y = whole_part(hn::Add(hn::Set(d, list_.y[patch]), dy), source_size_px_.y);
-        const auto x0 = hn::ConvertTo(di, x);
-        const auto y0 = hn::ConvertTo(di, y);
-        // Fractions in 15 bits; exactly 0 at a pixel centre.
-        const auto fraction = [&](V place, decltype(x0) first) {
-            const V part = hn::Sub(place, hn::ConvertTo(d, first));
-            return hn::ConvertTo(di, hn::Min(hn::Mul(part, hn::Set(d, 32768.0F)), hn::Set(d, 32767.0F)));
-        };
-        HWY_ALIGN std::int32_t taps[kMaxLanes];
+    // Opaque pixels in one row from column x on.
+    template <class M>
+    HWY_INLINE void paint_run(std::size_t patch, const Solved& solved, int x, int y, M inside) {
+        const std::size_t index =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(target_width_) + static_cast<std::size_t>(x);
+        const VF shown = hn::LoadU(DF{}, depths_ + index);
+        const auto nearer = hn::And(inside, hn::Lt(shown, solved.depth));
+        if (hn::AllFalse(DF{}, nearer)) return;
+        auto* colours = reinterpret_cast<std::uint32_t*>(colours_ + index);
+        const Taps taps = taps_of(patch, solved, nearer);
+        const auto colour = encoded(read_bilinear(taps.index, taps.fx, taps.fy));
+        hn::BlendedStore(solved.depth, nearer, DF{}, depths_ + index);
+        hn::BlendedStore(colour, hn::RebindMask(DU{}, nearer), DU{}, colours);
+    }
+
+    // Opaque pixels anywhere, each once.
+    template <class M>
+    HWY_INLINE void paint_scattered(std::size_t patch, const Solved& solved, VF pixel_x, VF pixel_y, M inside) {
+        HWY_ALIGN std::int32_t indices[kMaxLanes];
+        HWY_ALIGN float depths[kMaxLanes];
+        HWY_ALIGN std::int32_t tap[kMaxLanes];
         HWY_ALIGN std::int32_t fx[kMaxLanes];
         HWY_ALIGN std::int32_t fy[kMaxLanes];
-        hn::Store(hn::Add(hn::Mul(y0, hn::Set(di, source_size_px_.x)), x0), di, taps);
-        hn::Store(fraction(x, x0), di, fx);
-        hn::Store(fraction(y, y0), di, fy);
-        for (; bits != 0; bits &= bits - 1) {
+        const Taps taps = taps_of(patch, solved, inside);
+        hn::Store(indices_of(pixel_x, pixel_y), DI{}, indices);
+        hn::Store(solved.depth, DF{}, depths);
+        hn::Store(taps.index, DI{}, tap);
+        hn::Store(taps.fx, DI{}, fx);
+        hn::Store(taps.fy, DI{}, fy);
+        for (std::uint64_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
             float& shown = depths_[indices[lane]];
             if (shown >= depths[lane]) continue;
             shown = depths[lane];
-            colours_[indices[lane]] = read_bilinear(static_cast<std::size_t>(taps[lane]), fx[lane], fy[lane]);
+            const std::uint64_t word = read_word(tap[lane], fx[lane], fy[lane]);
+            const auto channel = [&](unsigned shift) {
+                return srgb8_from_linear15(static_cast<std::int32_t>(word >> shift & 0x7FFFU), cubics_);
+            };
+            colours_[indices[lane]] = {channel(0), channel(16), channel(32), 255};
         }
     }
 
-    // Rows first, then columns, each step rounded to 15 bits: a + (b - a) * fraction.
-    HWY_INLINE Rgba8 read_bilinear(std::size_t tap, std::int32_t fx, std::int32_t fy) const {
+    [[nodiscard]] HWY_INLINE hn::VFromD<DI> indices_of(VF pixel_x, VF pixel_y) const {
+        return hn::Add(hn::Mul(hn::ConvertTo(DI{}, pixel_y), hn::Set(DI{}, target_width_)),
+                       hn::ConvertTo(DI{}, pixel_x));
+    }
+
+    // Where a bilinear read begins, and its fractions in 15 bits; exactly 0 at a pixel centre.
+    struct Taps {
+        hn::VFromD<DI> index;
+        hn::VFromD<DI> fx;
+        hn::VFromD<DI> fy;
+    };
+
+    // Of the lanes `wanted`; the others' read somewhere in the image.
+    template <class M>
+    HWY_INLINE Taps taps_of(std::size_t patch, const Solved& solved, M wanted) const {
+        const auto within = [&](float origin, VF offset, int size) {
+            const VF place = hn::Add(hn::Set(DF{}, origin), hn::IfThenElseZero(wanted, offset));
+            return hn::Min(hn::Max(place, hn::Zero(DF{})), hn::Set(DF{}, static_cast<float>(size - 1)));
+        };
+        const auto fraction = [&](VF place, hn::VFromD<DI> first) {
+            const VF part = hn::Sub(place, hn::ConvertTo(DF{}, first));
+            return hn::ConvertTo(DI{}, hn::Min(hn::Mul(part, hn::Set(DF{}, 32768.0F)), hn::Set(DF{}, 32767.0F)));
+        };
+        const VF x = within(list_.x[patch], solved.dx, source_size_px_.x);
+        const VF y = within(list_.y[patch], solved.dy, source_size_px_.y);
+        const auto x0 = hn::ConvertTo(DI{}, x);
+        const auto y0 = hn::ConvertTo(DI{}, y);
+        return {hn::Add(hn::Mul(y0, hn::Set(DI{}, source_size_px_.x)), x0), fraction(x, x0), fraction(y, y0)};
+    }
+
+    // 15-bit channels of Lanes(DF) pixels.
+    struct LinearColours {
+        hn::VFromD<DU> red_green;  // red in the lower half
+        hn::VFromD<DU> blue;
+    };
+
+#if HWY_TARGET == HWY_SCALAR
+    HWY_INLINE LinearColours read_bilinear(hn::VFromD<DI> tap, hn::VFromD<DI> fx, hn::VFromD<DI> fy) const {
+        const std::uint64_t word = read_word(hn::GetLane(tap), hn::GetLane(fx), hn::GetLane(fy));
+        return {hn::Set(DU{}, static_cast<std::uint32_t>(word)),
+                hn::Set(DU{}, static_cast<std::uint32_t>(word >> 32U))};
+    }
+#else
+    // One pixel per 128-bit block: its two upper neighbours in one load, its two lower ones in another.
+    HWY_INLINE LinearColours read_bilinear(hn::VFromD<DI> tap, hn::VFromD<DI> fx, hn::VFromD<DI> fy) const {
+        HWY_ALIGN std::int32_t taps[kMaxLanes];
+        hn::Store(tap, DI{}, taps);
+        __builtin_prefetch(linear_ + taps[0] + 3 * source_size_px_.x);
+        __builtin_prefetch(linear_ + taps[kMaxLanes / 2] + 3 * source_size_px_.x);
+        const auto across = twice_in_halves(fx);
+        const auto down = twice_in_halves(fy);
+        const auto first = read_blocks(taps, 0, across, down);
+        const auto second = read_blocks(taps, 1, across, down);
+        const auto third = read_blocks(taps, 2, across, down);
+        const auto fourth = read_blocks(taps, 3, across, down);
+        const hn::ScalableTag<std::uint64_t> d64;
+        const auto low = hn::BitCast(DU{}, hn::ConcatEven(d64, second, first));
+        const auto high = hn::BitCast(DU{}, hn::ConcatEven(d64, fourth, third));
+        return {hn::ConcatEven(DU{}, high, low), hn::ConcatOdd(DU{}, high, low)};
+    }
+
+    [[nodiscard]] static HWY_INLINE hn::VFromD<DU> twice_in_halves(hn::VFromD<DI> fraction) {
+        const auto bits = hn::BitCast(DU{}, fraction);
+        return hn::Or(bits, hn::ShiftLeft<16>(bits));
+    }
+
+    // The pixels of a quarter of the lanes; each one's channels in the lower half of its block.
+    HWY_INLINE hn::Vec<hn::ScalableTag<std::uint64_t> > read_blocks(const std::int32_t* taps, int quarter,
+                                                                    hn::VFromD<DU> across, hn::VFromD<DU> down) const {
+        const hn::ScalableTag<std::int16_t> d16;
+        constexpr int kBlocks = HWY_MAX_BYTES / 16;
+        const std::int32_t* first = taps + quarter * kBlocks;
+        const auto pixel =
+            hn::IndicesFromVec(DF{}, hn::Add(hn::ShiftRight<2>(hn::Iota(DI{}, 0)), hn::Set(DI{}, quarter * kBlocks)));
+        const auto fx = hn::BitCast(d16, hn::TableLookupLanes(hn::BitCast(DF{}, across), pixel));
+        const auto fy = hn::BitCast(d16, hn::TableLookupLanes(hn::BitCast(DF{}, down), pixel));
+        const auto above = hn::BitCast(d16, load_blocks(linear_, first));
+        const auto below = hn::BitCast(d16, load_blocks(linear_ + source_size_px_.x, first));
+        const auto pair = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), fy));
+        const auto right = hn::BitCast(d16, hn::ShiftRightLanes<4>(d16, pair));
+        const auto mixed = hn::Add(pair, hn::MulFixedPoint15(hn::Sub(right, pair), fx));
+        return hn::BitCast(hn::ScalableTag<std::uint64_t>{}, mixed);
+    }
+
+    [[nodiscard]] static HWY_INLINE hn::Vec<hn::ScalableTag<std::uint64_t> > load_blocks(const std::uint64_t* base,
+                                                                                         const std::int32_t* taps) {
+        const hn::FixedTag<std::uint64_t, 2> d128;
+#if HWY_MAX_BYTES == 64
+        const hn::FixedTag<std::uint64_t, 4> d256;
+        const auto low = hn::Combine(d256, hn::LoadU(d128, base + taps[1]), hn::LoadU(d128, base + taps[0]));
+        const auto high = hn::Combine(d256, hn::LoadU(d128, base + taps[3]), hn::LoadU(d128, base + taps[2]));
+        return hn::Combine(hn::ScalableTag<std::uint64_t>{}, high, low);
+#elif HWY_MAX_BYTES == 32
+        return hn::Combine(hn::ScalableTag<std::uint64_t>{}, hn::LoadU(d128, base + taps[1]),
+                           hn::LoadU(d128, base + taps[0]));
+#else
+        return hn::LoadU(d128, base + taps[0]);
+#endif
+    }
+#endif
+
+    // One pixel. Rows first, then columns, each step rounded to 15 bits: a + (b - a) * fraction.
+    [[nodiscard]] HWY_INLINE std::uint64_t read_word(std::int32_t tap, std::int32_t fx, std::int32_t fy) const {
         const std::uint64_t* top = linear_ + tap;
         const std::uint64_t* bottom = top + source_size_px_.x;
 #if HWY_TARGET == HWY_SCALAR
-        std::int32_t channel[3];
-        for (unsigned i = 0; i < 3; ++i) {
-            const auto at = [&](const std::uint64_t* word) {
-                return static_cast<std::int32_t>(*word >> 16U * i & 0xFFFFU);
+        std::uint64_t word = 0;
+        for (unsigned shift = 0; shift < 48; shift += 16) {
+            const auto at = [&](const std::uint64_t* from) {
+                return static_cast<std::int32_t>(*from >> shift & 0xFFFFU);
             };
             const auto mix = [](std::int32_t a, std::int32_t b, std::int32_t f) {
                 return a + (((b - a) * f + 0x4000) >> 15);
             };
-            channel[i] = mix(mix(at(top), at(bottom), fy), mix(at(top + 1), at(bottom + 1), fy), fx);
+            const std::int32_t left = mix(at(top), at(bottom), fy);
+            const std::int32_t right = mix(at(top + 1), at(bottom + 1), fy);
+            word |= static_cast<std::uint64_t>(mix(left, right, fx)) << shift;
         }
-        return {encode_[channel[0]], encode_[channel[1]], encode_[channel[2]], 255};
+        return word;
 #else
         const hn::FixedTag<std::int16_t, 8> d16;
         const hn::FixedTag<std::uint64_t, 2> d64;
@@ -347,16 +462,55 @@ private:
         const auto across = hn::Set(d16, static_cast<std::int16_t>(fx));
         const auto pair = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
         const auto right = hn::ShiftRightLanes<4>(d16, pair);
-        const auto mixed = hn::Add(pair, hn::MulFixedPoint15(hn::Sub(right, pair), across));
-        const std::uint64_t channels = hn::GetLane(hn::BitCast(d64, mixed));
-        return {encode_[channels & 0x7FFFU], encode_[channels >> 16U & 0x7FFFU], encode_[channels >> 32U & 0x7FFFU],
-                255};
+        const auto word = hn::Add(pair, hn::MulFixedPoint15(hn::Sub(right, pair), across));
+        return hn::GetLane(hn::BitCast(d64, word));
+#endif
+    }
+
+    // srgb8_from_linear15 of three channels, packed and opaque.
+    HWY_INLINE hn::VFromD<DU> encoded(const LinearColours& linear) const {
+        const auto mask = hn::Set(DU{}, 0x7FFFU);
+        const auto red = encoded_channel(hn::And(linear.red_green, mask));
+        const auto green = encoded_channel(hn::And(hn::ShiftRight<16>(linear.red_green), mask));
+        const auto blue = encoded_channel(hn::And(linear.blue, mask));
+        const auto low = hn::Or(red, hn::ShiftLeft<8>(green));
+        return hn::Or(low, hn::Or(hn::ShiftLeft<16>(blue), hn::Set(DU{}, 0xFF000000U)));
+    }
+
+    HWY_INLINE hn::VFromD<DU> encoded_channel(hn::VFromD<DU> linear15) const {
+        const VF value = hn::ConvertTo(DF{}, hn::BitCast(DI{}, linear15));
+        const auto exponent =
+            hn::Sub(hn::BitCast(DI{}, hn::ShiftRight<23>(hn::BitCast(DU{}, value))), hn::Set(DI{}, 127));
+        const auto octave = hn::Max(exponent, hn::Zero(DI{}));
+        const VF third = coefficient(cubics_.third, octave);
+        const VF second = coefficient(cubics_.second, octave);
+        const VF first = coefficient(cubics_.first, octave);
+        const VF constant = coefficient(cubics_.constant, octave);
+        VF sum = hn::Add(hn::Mul(third, value), second);
+        sum = hn::Add(hn::Mul(sum, value), first);
+        sum = hn::Add(hn::Mul(sum, value), constant);
+        return hn::BitCast(DU{}, hn::ConvertTo(DI{}, hn::Add(sum, hn::Set(DF{}, 0.5F))));
+    }
+
+    [[nodiscard]] static HWY_INLINE VF coefficient(const std::array<float, 16>& table, hn::VFromD<DI> octave) {
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+        return hn::TableLookupLanes(hn::LoadU(DF{}, table.data()), hn::IndicesFromVec(DF{}, octave));
+#else
+        return hn::GatherIndex(DF{}, table.data(), octave);
 #endif
     }
 
     // One corner group of an edge cell: weighs its corners alone, and covers as much as they weigh.
-    void paint_fragments(std::size_t patch, std::uint64_t bits, const std::int32_t* indices, const float* depths,
-                         const float* dx, const float* dy) {
+    template <class M>
+    HWY_NOINLINE void paint_fragments(std::size_t patch, const Solved& solved, VF pixel_x, VF pixel_y, M inside) {
+        HWY_ALIGN std::int32_t indices[kMaxLanes];
+        HWY_ALIGN float depths[kMaxLanes];
+        HWY_ALIGN float dx[kMaxLanes];
+        HWY_ALIGN float dy[kMaxLanes];
+        hn::Store(indices_of(pixel_x, pixel_y), DI{}, indices);
+        hn::Store(solved.depth, DF{}, depths);
+        hn::Store(solved.dx, DF{}, dx);
+        hn::Store(solved.dy, DF{}, dy);
         const int x = static_cast<int>(list_.x[patch]);
         const int y = static_cast<int>(list_.y[patch]);
         const std::uint8_t corners = list_.corners[patch];
@@ -366,7 +520,7 @@ private:
                                      static_cast<std::size_t>(y) * static_cast<std::size_t>(source_size_px_.x) +
                                      static_cast<std::size_t>(x);
         const std::uint64_t words[4] = {first[0], first[right], first[down], first[right + down]};
-        for (; bits != 0; bits &= bits - 1) {
+        for (std::uint64_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
             if (depths_[indices[lane]] >= depths[lane]) continue;
             const float u = std::clamp(dx[lane], 0.0F, 1.0F);
@@ -397,12 +551,25 @@ private:
     float* depths_;
     Rgba8* colours_;
     const std::uint64_t* linear_;
-    const std::uint8_t* encode_;
+    const SrgbCubics& cubics_;
 };
 
 void draw_patches_here(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
                        std::vector<std::uint32_t>& behind) {
     Painter{input, list, canvas, behind}.paint();
+}
+
+void mark_coverage_here(const float* depths, std::size_t count, Coverage* coverage) {
+    const hn::Rebind<std::uint8_t, DF> d8;
+    auto* bytes = reinterpret_cast<std::uint8_t*>(coverage);
+    const std::size_t lanes = hn::Lanes(DF{});
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        const auto reached = hn::Ge(hn::LoadU(DF{}, depths + i), hn::Zero(DF{}));
+        const auto value = hn::IfThenElseZero(hn::RebindMask(DI{}, reached), hn::Set(DI{}, 1));
+        hn::StoreU(hn::DemoteTo(d8, value), d8, bytes + i);
+    }
+    for (; i < count; ++i) coverage[i] = depths[i] >= 0.0F ? Coverage::reached : Coverage::hole;
 }
 
 }  // namespace
@@ -413,10 +580,15 @@ HWY_AFTER_NAMESPACE();
 namespace lw {
 
 HWY_EXPORT(draw_patches_here);
+HWY_EXPORT(mark_coverage_here);
 
 void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind) {
     HWY_DYNAMIC_DISPATCH(draw_patches_here)(input, list, canvas, behind);
+}
+
+void mark_coverage(const float* depths, std::size_t count, Coverage* coverage) {
+    HWY_DYNAMIC_DISPATCH(mark_coverage_here)(depths, count, coverage);
 }
 
 }  // namespace lw

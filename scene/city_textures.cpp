@@ -94,7 +94,7 @@ ColourImage brick_texture() {
         const double in = inside_joint(along - std::floor(along), course - row, 0.020, 0.060, 0.03);
         const double shade = cell_noise(column, row, 1);
         const double hue = cell_noise(column, row, 2);
-        const Srgb brick = mixed({176.0, 98.0, 74.0}, {208.0, 138.0, 104.0}, shade) + Srgb{8.0, -10.0, -12.0} * hue -
+        const Srgb brick = mixed({170.0, 106.0, 84.0}, {204.0, 146.0, 116.0}, shade) + Srgb{8.0, -10.0, -12.0} * hue -
                            Srgb{34.0, 26.0, 18.0} * (cell_noise(column, row, 3) > 0.88 ? 1.0 : 0.0);
         const Srgb mortar{198.0, 190.0, 176.0};
         const double grain = octaves(u, v, 64, 3, 5);

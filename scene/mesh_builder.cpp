@@ -102,10 +102,12 @@ void MeshBuilder::polygon(std::span<const glm::dvec3> corners) {
     if (length < 1e-10) return;
     normal /= length;
     std::uint32_t first = 0;
+    std::uint32_t added = 0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
+        if (corners[i] == corners[(i + 1) % corners.size()]) continue;  // a side without length
         const std::uint32_t index = vertex(corners[i], normal);
-        if (i == 0) first = index;
-        if (i >= 2) triangle(first, index - 1, index);
+        if (added == 0) first = index;
+        if (++added > 2) triangle(first, index - 1, index);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <initializer_list>
 
 namespace lw::scene {
 
@@ -54,17 +55,18 @@ struct Direction2 {
     const double quarters = std::floor(turns * 4.0 + 0.5);
     const double x = (turns * 4.0 - quarters) * 1.57079632679489661923;  // [-pi/4, pi/4]
     const double x2 = x * x;
-    // Taylor series: the first term left out is below 2e-16 at pi/4.
-    const double s =
-        x * (1.0 +
-             x2 * (-1.0 / 6 +
-                   x2 * (1.0 / 120 + x2 * (-1.0 / 5040 +
-                                           x2 * (1.0 / 362880 + x2 * (-1.0 / 39916800 + x2 * (1.0 / 6227020800.0)))))));
-    const double c =
-        1.0 +
-        x2 * (-0.5 + x2 * (1.0 / 24 +
-                           x2 * (-1.0 / 720 + x2 * (1.0 / 40320 + x2 * (-1.0 / 3628800 + x2 * (1.0 / 479001600.0 -
-                                                                                               x2 / 87178291200.0))))));
+    // Taylor series: the first term left out is below 1e-16 at pi/4.
+    double s = -1.0 / 1307674368000.0;
+    for (const double term :
+         {1.0 / 6227020800.0, -1.0 / 39916800.0, 1.0 / 362880.0, -1.0 / 5040.0, 1.0 / 120.0, -1.0 / 6.0, 1.0}) {
+        s = s * x2 + term;
+    }
+    s *= x;
+    double c = 1.0 / 20922789888000.0;
+    for (const double term : {-1.0 / 87178291200.0, 1.0 / 479001600.0, -1.0 / 3628800.0, 1.0 / 40320.0, -1.0 / 720.0,
+                              1.0 / 24.0, -0.5, 1.0}) {
+        c = c * x2 + term;
+    }
     switch (static_cast<int>(quarters - 4.0 * std::floor(quarters * 0.25))) {
         case 0:
             return {c, s};

@@ -55,9 +55,9 @@ void ClientLoop::draw_and_publish() {
     record.times.pose_sampled = head.newest_sample;
     record.times.render_begin = clock_.now();
     if (settings_.textures) {
-        layer->pixels = renderer_.draw_to_textures(layer->camera, layer->scene_time_s);
+        layer->pixels = renderer_.draw_to_textures(layer->camera, layer->scene_time_s, settings_.source_samples);
     } else {
-        renderer_.draw(layer->camera, layer->scene_time_s, layer->cpu());
+        renderer_.draw_resolved(layer->camera, layer->scene_time_s, settings_.source_samples, layer->cpu());
     }
     record.counters = renderer_.counters();
     renderer_.mover_placements(layer->scene_time_s, layer->movers);

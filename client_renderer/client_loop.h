@@ -19,8 +19,9 @@ struct ClientSettings {
     Camera camera;        ///< size, field of view and near plane; its pose is ignored
     double max_hz = 0.0;  ///< 0: as fast as it can
     bool predict_source_pose =
-        true;               ///< draw for the middle of the frame's life on the display (--source-pose predicted)
-    bool textures = false;  ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory
+        true;                ///< draw for the middle of the frame's life on the display (--source-pose predicted)
+    int source_samples = 1;  ///< squared samples per pixel, resolved per surface (--source-samples): 1, 2 or 4
+    bool textures = false;   ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory
 };
 
 /// What runs before a layer is published: the warp method's prepare step, handed in by apps.

@@ -12,6 +12,7 @@
 #include "client_renderer/light_tiles.h"
 #include "client_renderer/lighting_pass.h"
 #include "client_renderer/render_targets.h"
+#include "client_renderer/surface_resolve.h"
 
 namespace lw {
 
@@ -32,6 +33,41 @@ Camera cropped(const Camera& camera, glm::ivec2 first_px, glm::ivec2 size_px) {
     return part;
 }
 
+void check_samples(int samples_per_axis) {
+    LW_CHECK(samples_per_axis == 1 || samples_per_axis == 2 || samples_per_axis == 4,
+             fmt::format("{} samples per axis", samples_per_axis));
+}
+
+/// Calls draw_tile(part, first_px) for tiles that cover the camera's picture: `part` is the tile's camera with all its
+/// samples as pixels. All tiles have one size, so the last ones may reach beyond the picture.
+template <class DrawTile>
+void for_each_tile(const Camera& camera, int samples_per_axis, glm::ivec2 tile_px, DrawTile draw_tile) {
+    for (int y = 0; y < camera.size_px.y; y += tile_px.y) {
+        for (int x = 0; x < camera.size_px.x; x += tile_px.x) {
+            Camera part = cropped(camera, {x, y}, tile_px);
+            part.size_px *= samples_per_axis;
+            draw_tile(part, glm::ivec2{x, y});
+        }
+    }
+}
+
+glm::ivec2 tile_size_px(glm::ivec2 size_px, int samples_per_axis) {
+    const int max_tile_px = kMaxTileSamples / samples_per_axis;
+    const glm::ivec2 tile_count = (size_px + max_tile_px - 1) / max_tile_px;
+    return (size_px + tile_count - 1) / tile_count;
+}
+
+void download(const gl::Texture& colour, const gl::Texture& depth, GLenum depth_format, const gl::Texture& object_id,
+              CpuPixels& pixels) {
+    pixels.colour.resize(colour.size_px());
+    pixels.depth.resize(colour.size_px());
+    pixels.object_id.resize(colour.size_px());
+    colour.download(GL_RGBA, GL_UNSIGNED_BYTE, pixels.colour.size_bytes(), pixels.colour.pixels().data());
+    depth.download(depth_format, GL_FLOAT, pixels.depth.size_bytes(), pixels.depth.pixels().data());
+    object_id.download(GL_RED_INTEGER, GL_UNSIGNED_SHORT, pixels.object_id.size_bytes(),
+                       pixels.object_id.pixels().data());
+}
+
 void copy_into(const ColourImage& tile, glm::ivec2 first_px, ColourImage& colour) {
     const glm::ivec2 size_px = glm::min(tile.size_px(), colour.size_px() - first_px);
     for (int y = 0; y < size_px.y; ++y) {
@@ -43,7 +79,8 @@ void copy_into(const ColourImage& tile, glm::ivec2 first_px, ColourImage& colour
 class DeferredSceneRenderer final : public SceneRenderer {
 public:
     DeferredSceneRenderer(const scene::Scene& scene, SceneRendererSettings settings,
-                          std::unique_ptr<GpuScene> gpu_scene, LightingPass lighting, ImagePasses images)
+                          std::unique_ptr<GpuScene> gpu_scene, LightingPass lighting, ImagePasses images,
+                          SurfaceResolve resolve)
         : scene_{scene},
           settings_{settings},
           state_{scene},
@@ -51,6 +88,7 @@ public:
           gbuffer_{*gpu_scene_},
           lighting_{std::move(lighting)},
           images_{std::move(images)},
+          resolve_{std::move(resolve)},
           frame_block_{gl::make_buffer(sizeof(shader::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT)} {
         state_.set_time(0.0);
         draw_list_.emplace(scene_, state_);
@@ -74,33 +112,36 @@ public:
     void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) override {
         counters_ = {};
         const RenderTargets& targets = render(camera, scene_time_s);
-        pixels.colour.resize(camera.size_px);
-        pixels.depth.resize(camera.size_px);
-        pixels.object_id.resize(camera.size_px);
-        targets.colour.download(GL_RGBA, GL_UNSIGNED_BYTE, pixels.colour.size_bytes(), pixels.colour.pixels().data());
-        targets.depth.download(GL_DEPTH_COMPONENT, GL_FLOAT, pixels.depth.size_bytes(), pixels.depth.pixels().data());
-        targets.object_id.download(GL_RED_INTEGER, GL_UNSIGNED_SHORT, pixels.object_id.size_bytes(),
-                                   pixels.object_id.pixels().data());
+        download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
     }
 
-    TexturePixels draw_to_textures(const Camera& camera, double scene_time_s) override {
+    void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) override {
+        check_samples(samples_per_axis);
+        if (samples_per_axis == 1) return draw(camera, scene_time_s, pixels);
         counters_ = {};
-        const RenderTargets& targets = render(camera, scene_time_s);
-        TexturePixels pixels{gl::Texture{camera.size_px, GL_SRGB8_ALPHA8},
-                             gl::Texture{camera.size_px, GL_R32F},
-                             gl::Texture{camera.size_px, GL_R16UI},
-                             {}};
-        copy(targets.colour, pixels.colour);
-        copy(targets.object_id, pixels.object_id);
-        images_.copy_depth(targets.depth, pixels.depth);
-        pixels.rendered = gl::Fence::insert();
-        return pixels;
+        if (!resolved_ || resolved_->colour.size_px() != camera.size_px) resolved_ = make_layer(camera.size_px);
+        resolve(camera, scene_time_s, samples_per_axis, *resolved_);
+        download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
+    }
+
+    TexturePixels draw_to_textures(const Camera& camera, double scene_time_s, int samples_per_axis) override {
+        check_samples(samples_per_axis);
+        counters_ = {};
+        LayerTextures layer = make_layer(camera.size_px);
+        if (samples_per_axis == 1) {
+            const RenderTargets& targets = render(camera, scene_time_s);
+            copy(targets.colour, layer.colour);
+            copy(targets.object_id, layer.object_id);
+            images_.copy_depth(targets.depth, layer.depth);
+        } else {
+            resolve(camera, scene_time_s, samples_per_axis, layer);
+        }
+        return {std::move(layer.colour), std::move(layer.depth), std::move(layer.object_id), gl::Fence::insert()};
     }
 
     void draw_supersampled(const Camera& camera, double scene_time_s, int samples_per_axis,
                            ColourImage& colour) override {
-        LW_CHECK(samples_per_axis == 1 || samples_per_axis == 2 || samples_per_axis == 4,
-                 fmt::format("{} samples per axis", samples_per_axis));
+        check_samples(samples_per_axis);
         counters_ = {};
         colour.resize(camera.size_px);
         if (samples_per_axis == 1) {
@@ -108,20 +149,14 @@ public:
             targets.colour.download(GL_RGBA, GL_UNSIGNED_BYTE, colour.size_bytes(), colour.pixels().data());
             return;
         }
-        const int max_tile_px = kMaxTileSamples / samples_per_axis;
-        const glm::ivec2 tile_count = (camera.size_px + max_tile_px - 1) / max_tile_px;
-        const glm::ivec2 tile_px = (camera.size_px + tile_count - 1) / tile_count;
+        const glm::ivec2 tile_px = tile_size_px(camera.size_px, samples_per_axis);
         const gl::Texture averaged{tile_px, GL_SRGB8_ALPHA8};
         ColourImage tile{tile_px};
-        for (int y = 0; y < camera.size_px.y; y += tile_px.y) {
-            for (int x = 0; x < camera.size_px.x; x += tile_px.x) {
-                Camera part = cropped(camera, {x, y}, tile_px);
-                part.size_px *= samples_per_axis;
-                images_.average(render(part, scene_time_s).colour, samples_per_axis, averaged);
-                averaged.download(GL_RGBA, GL_UNSIGNED_BYTE, tile.size_bytes(), tile.pixels().data());
-                copy_into(tile, {x, y}, colour);
-            }
-        }
+        for_each_tile(camera, samples_per_axis, tile_px, [&](const Camera& part, glm::ivec2 first_px) {
+            images_.average(render(part, scene_time_s).colour, samples_per_axis, averaged);
+            averaged.download(GL_RGBA, GL_UNSIGNED_BYTE, tile.size_bytes(), tile.pixels().data());
+            copy_into(tile, first_px, colour);
+        });
     }
 
     void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
@@ -145,6 +180,20 @@ private:
         glBindBufferBase(GL_UNIFORM_BUFFER, shader::kBindingFrame, frame_block_.id());
     }
 
+    static LayerTextures make_layer(glm::ivec2 size_px) {
+        LW_CHECK(size_px.x >= 1 && size_px.y >= 1, fmt::format("{}x{} pixels", size_px.x, size_px.y));
+        auto made = LayerTextures::create(size_px);
+        LW_CHECK(made.ok(), made.error().message());
+        return std::move(*made);
+    }
+
+    void resolve(const Camera& camera, double scene_time_s, int samples_per_axis, const LayerTextures& layer) {
+        const glm::ivec2 tile_px = tile_size_px(camera.size_px, samples_per_axis);
+        for_each_tile(camera, samples_per_axis, tile_px, [&](const Camera& part, glm::ivec2 first_px) {
+            resolve_.draw(render(part, scene_time_s), samples_per_axis, first_px, layer);
+        });
+    }
+
     // One sample per pixel into the targets of this size; they are drawn over by the next call.
     const RenderTargets& render(const Camera& camera, double scene_time_s) {
         const RenderTargets& targets = targets_of(camera.size_px);
@@ -160,7 +209,7 @@ private:
         return targets;
     }
 
-    // Keeps the last two sizes: a run alternates between at most a view and its truth's tiles.
+    // Keeps the last three sizes: a run alternates between at most a source, its truth's tiles and a fresh view.
     const RenderTargets& targets_of(glm::ivec2 size_px) {
         const auto found =
             std::ranges::find_if(targets_, [&](const auto& targets) { return targets->colour.size_px() == size_px; });
@@ -169,7 +218,7 @@ private:
             return *targets_.front();
         }
         LW_CHECK(size_px.x >= 1 && size_px.y >= 1, fmt::format("{}x{} pixels", size_px.x, size_px.y));
-        if (targets_.size() == 2) targets_.pop_back();
+        if (targets_.size() == 3) targets_.pop_back();
         auto made = RenderTargets::create(size_px);
         LW_CHECK(made.ok(), made.error().message());
         targets_.insert(targets_.begin(), std::move(*made));
@@ -184,6 +233,8 @@ private:
     GBufferPass gbuffer_;
     LightingPass lighting_;
     ImagePasses images_;
+    SurfaceResolve resolve_;
+    std::optional<LayerTextures> resolved_;  ///< of the last size drawn with several samples
     LightTiles lights_;
     gl::Buffer frame_block_;
     std::vector<std::unique_ptr<RenderTargets>> targets_;
@@ -200,8 +251,10 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(const scene::Scene&
     if (!lighting.ok()) return lighting.error();
     auto images = ImagePasses::create();
     if (!images.ok()) return images.error();
-    auto renderer = std::make_unique<DeferredSceneRenderer>(scene, settings, std::move(*gpu_scene),
-                                                            std::move(*lighting), std::move(*images));
+    auto resolve = SurfaceResolve::create();
+    if (!resolve.ok()) return resolve.error();
+    auto renderer = std::make_unique<DeferredSceneRenderer>(
+        scene, settings, std::move(*gpu_scene), std::move(*lighting), std::move(*images), std::move(*resolve));
     const Status warm = renderer->warm_up();
     if (!warm.ok()) return warm.error();
     return std::unique_ptr<SceneRenderer>{std::move(renderer)};

@@ -38,8 +38,15 @@ public:
     /// function of its arguments alone: equal ones give equal bytes.
     virtual void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) = 0;
 
-    /// The same into textures of the current context, with a fence, for a server whose context shares with this one.
-    [[nodiscard]] virtual TexturePixels draw_to_textures(const Camera& camera, double scene_time_s) = 0;
+    /// The source of a warp: `samples_per_axis` squared samples per pixel, resolved per surface (SurfaceResolve), so
+    /// that surfaces are antialiased inside and keep hard edges. 1, 2 or 4; 1 equals draw() bit for bit, at its cost.
+    /// Drawn in tiles where it is large.
+    virtual void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) = 0;
+
+    /// draw_resolved() into textures of the current context, with a fence, for a server whose context shares with this
+    /// one.
+    [[nodiscard]] virtual TexturePixels draw_to_textures(const Camera& camera, double scene_time_s,
+                                                         int samples_per_axis) = 0;
 
     /// Truth: `samples_per_axis` squared samples per pixel, box-averaged in linear light. 1, 2 or 4; 1 equals
     /// draw(). Drawn in tiles where it is large, so any size up to the driver's texture limit works.

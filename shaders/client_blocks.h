@@ -43,7 +43,10 @@ const int kUnitGAlbedo = 0;    // sqrt(albedo), roughness
 const int kUnitGNormal = 1;    // octahedral, relative space, 0.5 * n + 0.5
 const int kUnitGEmissive = 2;  // sqrt(emissive), metallic
 const int kUnitGDepth = 3;
-const int kUnitSource = 0;  // of a copy or an average
+const int kUnitSource = 0;        // of a copy or an average
+const int kUnitSampleColour = 0;  // of the resolve per surface
+const int kUnitSampleDepth = 1;
+const int kUnitSampleId = 2;
 
 const int kBindingFrame = 0;
 const int kBindingMaterial = 1;

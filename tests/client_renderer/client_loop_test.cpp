@@ -21,7 +21,14 @@ public:
         clock_.advance(cost_);
         if (on_draw) on_draw();
     }
-    TexturePixels draw_to_textures(const Camera& /*camera*/, double /*scene_time_s*/) override { return {}; }
+    void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) override {
+        samples.push_back(samples_per_axis);
+        draw(camera, scene_time_s, pixels);
+    }
+    TexturePixels draw_to_textures(const Camera& /*camera*/, double /*scene_time_s*/,
+                                   int /*samples_per_axis*/) override {
+        return {};
+    }
     void draw_supersampled(const Camera& /*camera*/, double /*scene_time_s*/, int /*samples_per_axis*/,
                            ColourImage& /*colour*/) override {}
     void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
@@ -31,6 +38,7 @@ public:
 
     std::vector<Camera> cameras;
     std::vector<double> times_s;
+    std::vector<int> samples;
     std::function<void()> on_draw;
 
 private:

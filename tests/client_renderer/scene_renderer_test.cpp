@@ -380,7 +380,7 @@ TEST_F(GlSceneRenderer, TexturesHoldWhatCpuPixelsHold) {
     std::mt19937 random{12};
     const Camera camera = random_camera(random, {48, 40});
     const CpuPixels expected = draw(*renderer, camera);
-    const TexturePixels textures = renderer->draw_to_textures(camera, 0.0);
+    const TexturePixels textures = renderer->draw_to_textures(camera, 0.0, 1);
     glFinish();
     EXPECT_TRUE(textures.rendered.signalled());
     CpuPixels actual{ColourImage{{48, 40}}, DepthImage{{48, 40}}, ObjectIdImage{{48, 40}}};

@@ -25,12 +25,12 @@ inline bool shared_data_is_required() {
 }  // namespace lw::test
 
 /// First line of a test body that reads shared data.
-#define LW_NEED_SHARED_DATA()                                                                         \
-    do {                                                                                              \
-        if (!std::filesystem::is_directory(::lw::test::shared_data_dir())) {                          \
-            if (::lw::test::shared_data_is_required()) {                                              \
-                FAIL() << "shared data is missing: " << ::lw::test::shared_data_dir().string();       \
-            }                                                                                         \
-            GTEST_SKIP() << "no shared data at " << ::lw::test::shared_data_dir().string();           \
-        }                                                                                             \
+#define LW_NEED_SHARED_DATA()                                                                   \
+    do {                                                                                        \
+        if (!std::filesystem::is_directory(::lw::test::shared_data_dir())) {                    \
+            if (::lw::test::shared_data_is_required()) {                                        \
+                FAIL() << "shared data is missing: " << ::lw::test::shared_data_dir().string(); \
+            }                                                                                   \
+            GTEST_SKIP() << "no shared data at " << ::lw::test::shared_data_dir().string();     \
+        }                                                                                       \
     } while (false)

@@ -27,7 +27,8 @@ glm::dmat4 mover_placement(double time_s) { return lw::matrix_of({{1.2 * std::si
 
 lw::Pose head_at(double time_s) {
     const double yaw_rad = 0.15 * std::sin(2.0 * time_s);
-    return {{0.1 * std::sin(3.0 * time_s), 1.5, 0.0}, glm::angleAxis(yaw_rad, glm::dvec3{0, 1, 0})};
+    const glm::dquat down = glm::angleAxis(-0.4, glm::dvec3{1, 0, 0});
+    return {{0.1 * std::sin(3.0 * time_s), 1.5, 0.0}, glm::angleAxis(yaw_rad, glm::dvec3{0, 1, 0}) * down};
 }
 
 std::optional<double> hit(const Sphere& sphere, const glm::dvec3& eye, const glm::dvec3& ray) {
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
     if (argc != 2) return std::fprintf(stderr, "usage: own_renderer OUTPUT_FOLDER\n"), 2;
     const std::filesystem::path folder = argv[1];
     std::filesystem::create_directories(folder);
-    auto warper = lw::FrameWarper::create("splat", "nearest-background");
+    auto warper = lw::FrameWarper::create("surface", "nearest-background");
     if (!warper) return std::fprintf(stderr, "%s\n", warper.error().message().c_str()), 1;
 
     lw::Camera camera;

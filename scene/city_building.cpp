@@ -4,6 +4,7 @@
 
 #include "scene/city_facade.h"
 #include "scene/city_roof.h"
+#include "scene/city_tiles.h"
 
 namespace lw::scene {
 

@@ -5,17 +5,11 @@
 #include <cmath>
 
 #include "scene/city_facade.h"
+#include "scene/city_tiles.h"
 
 namespace lw::scene {
 
 namespace {
-
-constexpr double kTileWidth_m = 0.38;
-constexpr double kTileLength_m = 0.48;
-constexpr double kTileRise_m = 0.075;
-
-glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
-
 void use_trim(MeshBuilder& builder, Rgba8 colour) {
     builder.use_material(kStone, texture_size_m(kStone));
     builder.use_colour(colour);
@@ -280,67 +274,6 @@ void add_flat(MeshBuilder& builder, const BuildingStyle& style, Random& random) 
 }
 
 }  // namespace
-
-void add_tiled_slope(MeshBuilder& builder, Rgba8 colour, const glm::dvec3& eaves_left, const glm::dvec3& eaves_right,
-                     const glm::dvec3& ridge_right, const glm::dvec3& ridge_left) {
-    builder.use_material(kRoofTile, texture_size_m(kRoofTile));
-    builder.use_colour(colour);
-    const glm::dvec3 across = unit(eaves_right - eaves_left);
-    const glm::dvec3 to_left = ridge_left - eaves_left;
-    const glm::dvec3 up_slope = to_left - across * glm::dot(to_left, across);
-    const double length = std::sqrt(glm::dot(up_slope, up_slope));
-    const glm::dvec3 up = up_slope / length;
-    const glm::dvec3 out = glm::cross(across, up);
-    const double width = glm::dot(eaves_right - eaves_left, across);
-    const double ridge0 = glm::dot(to_left, across);
-    const double ridge1 = glm::dot(ridge_right - eaves_left, across);
-    const int rows = std::max(1, static_cast<int>(length / kTileLength_m + 0.5));
-    const int columns = std::max(1, static_cast<int>(width / kTileWidth_m + 0.5));
-    const double pitch = length / rows;
-    const double tile = width / columns;
-    const auto point = [&](double u, double s, double h) { return eaves_left + across * u + up * s + out * h; };
-    const glm::dvec3 left_normal = unit(out - across * 0.55);
-    const glm::dvec3 right_normal = unit(out + across * 0.55);
-    for (int row = 0; row < rows; ++row) {
-        const double s0 = row * pitch;
-        const double s1 = s0 + pitch;
-        const double l0 = ridge0 * s0 / length;
-        const double l1 = ridge0 * s1 / length;
-        const double r0 = width + (ridge1 - width) * s0 / length;
-        const double r1 = width + (ridge1 - width) * s1 / length;
-        for (int column = 0; column < columns; ++column) {
-            const double a0 = std::max(column * tile, l0);
-            const double b0 = std::min((column + 1) * tile, r0);
-            if (b0 - a0 < 1e-3) continue;
-            const double a1 = std::clamp(column * tile, l1, std::max(l1, r1));
-            const double b1 = std::clamp((column + 1) * tile, l1, std::max(l1, r1));
-            const double middle = 0.5 * (a0 + b0);
-            const auto uv = [&](double u, double s) {
-                return glm::dvec2{u / (8.0 * tile) + 0.375 * (row % 8), -s / (8.0 * pitch)};
-            };
-            const auto low_left = builder.vertex(point(a0, s0, 0.0), left_normal, uv(a0, s0));
-            const auto low_middle = builder.vertex(point(middle, s0, kTileRise_m), out, uv(middle, s0));
-            const auto low_right = builder.vertex(point(b0, s0, 0.0), right_normal, uv(b0, s0));
-            const auto high_left = builder.vertex(point(a1, s1, 0.0), out, uv(a1, s1));
-            builder.triangle(low_left, low_middle, high_left);
-            if (b1 - a1 > 1e-6) {
-                const auto high_right = builder.vertex(point(b1, s1, 0.0), out, uv(b1, s1));
-                builder.triangle(low_middle, high_right, high_left);
-                builder.triangle(low_middle, low_right, high_right);
-            } else {
-                builder.triangle(low_middle, low_right, high_left);
-            }
-            // The open end of the tile; its foot is the upper edge of the row below.
-            builder.polygon({point(a0, s0, 0.0), point(b0, s0, 0.0), point(middle, s0, kTileRise_m)});
-        }
-    }
-    // The underside, seen below the overhang.
-    builder.use_material(kPaint);
-    builder.use_colour(tint(0x8A7C6C));
-    const glm::dvec3 down = out * -0.08;
-    builder.polygon({eaves_left + down, ridge_left + down, ridge_right + down, eaves_right + down});
-    builder.polygon({eaves_left + down, eaves_right + down, eaves_right, eaves_left});
-}
 
 void add_antenna(MeshBuilder& builder, const glm::dvec3& foot, double height_m, Random& random) {
     builder.use_material(kIron);

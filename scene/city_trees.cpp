@@ -22,12 +22,12 @@ struct TreeShape {
 };
 
 constexpr std::array<TreeShape, 6> kShapes{{
-    {"street tree 1", 2.5, {1.7, 1.9, 1.7}, 5, 1350, 0.22, 0x7C9A4A},
-    {"street tree 2", 2.7, {1.6, 2.3, 1.6}, 6, 1450, 0.22, 0x6C9150},
-    {"street tree 3", 2.4, {1.5, 1.6, 1.5}, 5, 1250, 0.21, 0x93A650},
-    {"garden tree", 2.2, {2.8, 2.6, 2.8}, 8, 1500, 0.31, 0x6B8A45},
-    {"tall tree", 3.0, {2.6, 3.8, 2.6}, 9, 1550, 0.34, 0x5E8248},
-    {"poplar", 1.2, {1.1, 4.6, 1.1}, 7, 1350, 0.27, 0x71904A},
+    {"street tree 1", 2.5, {1.7, 1.9, 1.7}, 5, 700, 0.27, 0x7C9A4A},
+    {"street tree 2", 2.7, {1.6, 2.3, 1.6}, 6, 760, 0.27, 0x6C9150},
+    {"street tree 3", 2.4, {1.5, 1.6, 1.5}, 5, 660, 0.26, 0x93A650},
+    {"garden tree", 2.2, {2.8, 2.6, 2.8}, 8, 780, 0.37, 0x6B8A45},
+    {"tall tree", 3.0, {2.6, 3.8, 2.6}, 9, 810, 0.41, 0x5E8248},
+    {"poplar", 1.2, {1.1, 4.6, 1.1}, 7, 710, 0.32, 0x71904A},
 }};
 
 struct Blob {
@@ -52,9 +52,9 @@ std::vector<Blob> blobs_of(const TreeShape& shape, const glm::dvec3& middle, Ran
 /// Dark inside, so that gaps between leaves do not show the sky everywhere.
 void add_core(MeshBuilder& builder, const Blob& blob, std::uint32_t green) {
     builder.use_material(kLeaf);
-    builder.use_colour(tint(green, 0.3));
-    const double r = 0.70 * blob.half.x;
-    const double h = 0.70 * blob.half.y;
+    builder.use_colour(tint(green, 0.34));
+    const double r = 0.58 * blob.half.x;
+    const double h = 0.58 * blob.half.y;
     builder.lathe(blob.centre, {{0.0, -h}, {0.85 * r, -0.5 * h}, {0.85 * r, 0.5 * h}, {0.0, h}}, 6);
 }
 
@@ -68,12 +68,13 @@ void add_leaf(MeshBuilder& builder, const glm::dvec3& at, const glm::dvec3& outw
     normal /= std::sqrt(glm::dot(normal, normal));
     const double half = 0.5 * size;
     const glm::dvec3 droop = facing * (-0.22 * size);
-    const auto tip = builder.vertex(at + along * half + droop, normal);
-    const auto left = builder.vertex(at + across * (0.62 * half), normal);
-    const auto foot = builder.vertex(at - along * half + droop, normal);
-    const auto right = builder.vertex(at - across * (0.62 * half), normal);
-    builder.triangle(tip, left, foot);
-    builder.triangle(tip, foot, right);
+    // A pointed oval, bent over its middle: six corners, four triangles.
+    const auto corner = [&](double forward, double sideways, double bend) {
+        return builder.vertex(at + along * (forward * half) + across * (sideways * half) + droop * bend, normal);
+    };
+    const std::array<std::uint32_t, 6> rim{corner(1.0, 0.0, 1.0),  corner(0.3, 0.62, 0.0),   corner(-0.4, 0.58, 0.1),
+                                           corner(-1.0, 0.0, 1.0), corner(-0.4, -0.58, 0.1), corner(0.3, -0.62, 0.0)};
+    for (std::size_t i = 1; i + 1 < rim.size(); ++i) builder.triangle(rim[0], rim[i], rim[i + 1]);
 }
 
 void add_leaves(MeshBuilder& builder, const TreeShape& shape, std::span<const Blob> blobs, double low, double high,
@@ -141,7 +142,7 @@ Mesh make_hedge(std::uint64_t seed) {
     builder.use_material(kLeaf);
     builder.use_colour(tint(0x4D6A38, 0.5));
     builder.box({-1.0, 0.0, -0.28}, {1.0, 1.0, 0.28}, kNoBottom);
-    for (int i = 0; i < 260; ++i) {
+    for (int i = 0; i < 150; ++i) {
         const int face = random.below(5);
         const double x = random.between(-1.0, 1.0);
         const double y = random.between(0.05, 1.05);
@@ -153,7 +154,7 @@ Mesh make_hedge(std::uint64_t seed) {
             outward = {0.0, 0.0, side};
         }
         builder.use_colour(tint(0x5F7F3F, random.between(0.65, 1.2)));
-        add_leaf(builder, at, outward, 0.17, random);
+        add_leaf(builder, at, outward, 0.2, random);
     }
     return builder.take();
 }

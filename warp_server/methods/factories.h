@@ -17,6 +17,7 @@ using MadeMethod = Result<std::unique_ptr<WarpMethod>>;
 [[nodiscard]] MadeMethod make_mesh_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_compute_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_inverse_gl_method(std::string label, const MethodSettings& settings);
+[[nodiscard]] MadeMethod make_surface_gl_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_splat_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_inverse_method(std::string label, const MethodSettings& settings);
 [[nodiscard]] MadeMethod make_surface_method(std::string label, const MethodSettings& settings);

@@ -51,7 +51,9 @@ void GlSource::bind_textures(GLuint colour, GLuint depth, GLuint object_id) {
     glBindTextureUnit(LW_WARP_DEPTH_UNIT, depth);
     glBindTextureUnit(LW_WARP_OBJECT_ID_UNIT, object_id);
     glBindTextureUnit(LW_WARP_SMOOTH_COLOUR_UNIT, colour);
-    for (const GLuint unit : {LW_WARP_COLOUR_UNIT, LW_WARP_DEPTH_UNIT, LW_WARP_OBJECT_ID_UNIT}) glBindSampler(unit, 0);
+    for (const int unit : {LW_WARP_COLOUR_UNIT, LW_WARP_DEPTH_UNIT, LW_WARP_OBJECT_ID_UNIT}) {
+        glBindSampler(static_cast<GLuint>(unit), 0);
+    }
     glBindSampler(LW_WARP_SMOOTH_COLOUR_UNIT, smooth_.id());
 }
 

@@ -19,6 +19,10 @@ public:
     /// the driver cannot (GL 4.5 demands these formats).
     void begin(glm::ivec2 size_px, Writes writes);
 
+    [[nodiscard]] const gl::Texture& colour() const { return colour_; }
+    [[nodiscard]] const gl::Texture& coverage() const { return coverage_; }
+    [[nodiscard]] const gl::Texture& depth() const { return depth_; }
+
     /// Reads the picture back; waits for the GPU. `out` is resized.
     void read(DisplayFrame& out) const;
 

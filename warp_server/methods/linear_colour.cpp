@@ -84,4 +84,15 @@ const SrgbCubics& srgb_cubics() {
     return cubics;
 }
 
+const std::array<std::uint8_t, kLinearOne + 1>& srgb8_from_linear15_table() {
+    static const std::array<std::uint8_t, kLinearOne + 1> table = [] {
+        std::array<std::uint8_t, kLinearOne + 1> made{};
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            made[i] = srgb8_from_linear15(static_cast<std::int32_t>(i), srgb_cubics());
+        }
+        return made;
+    }();
+    return table;
+}
+
 }  // namespace lw

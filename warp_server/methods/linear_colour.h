@@ -40,4 +40,7 @@ struct SrgbCubics {
     return static_cast<std::uint8_t>(encoded + 0.5F);
 }
 
+/// srgb8_from_linear15 of every value, for reads one by one. Built once, thread safe.
+[[nodiscard]] const std::array<std::uint8_t, kLinearOne + 1>& srgb8_from_linear15_table();
+
 }  // namespace lw

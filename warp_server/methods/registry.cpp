@@ -16,9 +16,11 @@ constexpr MethodEntry kMethods[] = {
     {"mesh", "a vertex per pixel, triangles between neighbours", true, "", make_mesh_method},
     {"compute", "every pixel a point, in compute shaders", true, "", make_compute_method},
     {"inverse-gl", "the inverse search in a compute shader", true, "steps", make_inverse_gl_method},
-    {"splat", "every pixel a point, on the CPU", false, "", make_splat_method},
+    {"surface-gl", "surface, drawn by GL", true, "", make_surface_gl_method},
+    {"splat", "every pixel a point, on the CPU", false, "threads", make_splat_method},
     {"inverse", "search in the source for every target pixel, on the CPU", false, "steps", make_inverse_method},
-    {"surface", "surfaces placed by their pieces, colour solved on each; the default", false, "", make_surface_method},
+    {"surface", "surfaces placed by their pieces, colour solved on each; the default", false, "threads",
+     make_surface_method},
     {"reference", "double precision, slow and obvious: the oracle of the tests", false, "", make_reference_method},
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "warp_server/band_pool.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
@@ -10,9 +11,12 @@
 namespace lw {
 namespace {
 
+// Threads share the source by rows, and each has keys of its own, so that no two write to one place. The larger key
+// wins whoever wrote it, so the picture does not depend on the number of threads.
 class SplatMethod final : public WarpMethod {
 public:
-    explicit SplatMethod(std::string label) : label_{std::move(label)} {}
+    SplatMethod(std::string label, int threads)
+        : label_{std::move(label)}, pool_{threads}, shares_(static_cast<std::size_t>(threads)) {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
 
@@ -21,30 +25,64 @@ public:
         const CpuPixels& pixels = checked_cpu_pixels(layer);
         matrices_.build(layer, target);
         out.resize(target.camera.size_px);
-        clear_keys_of(target.camera.size_px);
-        const SplatInput input{&pixels, &matrices_};
-        splat_points(input, {0, pixels.depth.height()}, keys_, counters_);
-        const BackgroundLookup background{background_source_from_target(layer.camera, target.camera)};
-        resolve_keys(input, background, {0, keys_.height()}, keys_, out);
+        input_ = {&pixels, &matrices_};
+        background_ = {background_source_from_target(layer.camera, target.camera)};
+        out_ = &out;
+        pool_.run(splat_share_);
+        for (const Share& share : shares_) {
+            counters_.bad_depth += share.counters.bad_depth;
+            counters_.unknown_object += share.counters.unknown_object;
+        }
+        pool_.run(resolve_band_);
     }
 
 private:
-    // Resolving leaves the keys cleared, so only a new size needs it done here.
-    void clear_keys_of(glm::ivec2 size_px) {
-        if (keys_.size_px() == size_px) return;
-        keys_.resize(size_px);
-        std::fill(keys_.pixels().begin(), keys_.pixels().end(), WinnerKey{0});
+    struct Share {
+        Image<WinnerKey> keys;
+        RowRange written;  // rows of keys that are not all 0
+        WarpCounters counters;
+    };
+
+    void splat_share(int thread) {
+        Share& share = shares_[static_cast<std::size_t>(thread)];
+        if (share.keys.size_px() != out_->colour.size_px()) {  // else resolving left them cleared
+            share.keys.resize(out_->colour.size_px());
+            std::fill(share.keys.pixels().begin(), share.keys.pixels().end(), WinnerKey{0});
+        }
+        share.counters = {};
+        const RowRange rows = band_of_rows(input_.pixels->depth.height(), thread, pool_.threads());
+        share.written = splat_points(input_, rows, share.keys, share.counters);
+    }
+
+    void resolve_band(int thread) {
+        const RowRange band = band_of_rows(out_->colour.height(), thread, pool_.threads());
+        Share& first = shares_.front();
+        for (std::size_t i = 1; i < shares_.size(); ++i) {
+            const RowRange rows{std::max(band.begin, shares_[i].written.begin),
+                                std::min(band.end, shares_[i].written.end)};
+            if (rows.begin < rows.end) merge_keys(rows, shares_[i].keys, first.keys);
+        }
+        resolve_keys(input_, background_, band, first.keys, *out_);
     }
 
     std::string label_;
+    BandPool pool_;
+    std::vector<Share> shares_;
     ObjectMatrices matrices_;
-    Image<WinnerKey> keys_;
+    SplatInput input_;
+    BackgroundLookup background_;
+    DisplayFrame* out_ = nullptr;
+    // Kept, because making a function object may allocate.
+    std::function<void(int)> splat_share_ = [this](int thread) { splat_share(thread); };
+    std::function<void(int)> resolve_band_ = [this](int thread) { resolve_band(thread); };
 };
 
 }  // namespace
 
-MadeMethod make_splat_method(std::string label, const MethodSettings& /*settings*/) {
-    return std::unique_ptr<WarpMethod>{std::make_unique<SplatMethod>(std::move(label))};
+MadeMethod make_splat_method(std::string label, const MethodSettings& settings) {
+    const Result<int> threads = whole_setting(label, settings, "threads", 1, 1, 16);
+    if (!threads) return threads.error();
+    return std::unique_ptr<WarpMethod>{std::make_unique<SplatMethod>(std::move(label), *threads)};
 }
 
 }  // namespace lw

@@ -24,6 +24,23 @@ using Mask = hn::Mask<D>;
 constexpr float kNoNeighbour = 8.0F;        // a depth that lies on no surface: depths are at most 1
 constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no image; keeps later sums far from overflow
 
+// One bit per lane. Reads back exactly the bytes that are written: a wider read would wait for the write to reach the
+// cache.
+template <class D, class M>
+HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+    if constexpr (hn::MaxLanes(D{}) > 8) {
+        std::uint16_t bits = 0;
+        hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+        return bits;
+    } else {
+        std::uint8_t bits = 0;
+        hn::StoreMaskBits(d, mask, &bits);
+        return bits;
+    }
+}
+
+constexpr std::ptrdiff_t kPrefetchPixels = 96;  // six blocks of 16, about as long as a line takes to arrive
+
 // What one row of points needs.
 struct RowContext {
     const SplatInput* input;
@@ -179,12 +196,11 @@ HWY_INLINE void splat_lanes(D d, RowContext& row, int x, const PixelMatrix& m, M
     hn::Store(low, du, low_lanes);
     hn::Store(pixel, di, pixel_lanes);
     WinnerKey* keys = row.keys->pixels().data();
-    std::uint8_t bits8[8] = {};
-    hn::StoreMaskBits(d, single, bits8);
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, bits8, sizeof(bits));
-    for (; bits != 0; bits &= bits - 1) {
-        const auto lane = static_cast<unsigned>(__builtin_ctzll(bits));
+    // The next blocks of this row most likely land behind this one's place; a wrong guess costs nothing.
+    __builtin_prefetch(keys + pixel_lanes[0] + kPrefetchPixels, 1);
+    __builtin_prefetch(keys + pixel_lanes[0] + kPrefetchPixels + 8, 1);
+    for (std::uint32_t bits = bits_of(d, single); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<unsigned>(__builtin_ctz(bits));
         const WinnerKey key = (WinnerKey{high_lanes[lane]} << 32U) | low_lanes[lane];
         WinnerKey& winner = keys[pixel_lanes[lane]];
         winner = std::max(winner, key);
@@ -206,11 +222,8 @@ HWY_INLINE void splat_lanes(D d, RowContext& row, int x, const PixelMatrix& m, M
     hn::Store(x_end, d, place[4]);
     hn::Store(y_begin, d, place[5]);
     hn::Store(y_end, d, place[6]);
-    std::uint8_t large8[8] = {};
-    hn::StoreMaskBits(d, large, large8);
-    std::memcpy(&bits, large8, sizeof(bits));
-    for (; bits != 0; bits &= bits - 1) {
-        const auto lane = static_cast<unsigned>(__builtin_ctzll(bits));
+    for (std::uint32_t bits = bits_of(d, large); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<unsigned>(__builtin_ctz(bits));
         write_large_point(*row.keys, place[0][lane], place[1][lane], place[2][lane],
                           {static_cast<int>(place[3][lane]), static_cast<int>(place[4][lane])},
                           {static_cast<int>(place[5][lane]), static_cast<int>(place[6][lane])},
@@ -379,6 +392,17 @@ HWY_EXPORT(resolve_keys_here);
 
 RowRange splat_points(const SplatInput& input, RowRange source_rows, Image<WinnerKey>& keys, WarpCounters& counters) {
     return HWY_DYNAMIC_DISPATCH(splat_points_here)(input, source_rows, keys, counters);
+}
+
+void merge_keys(RowRange rows, Image<WinnerKey>& from, Image<WinnerKey>& into) {
+    for (int y = rows.begin; y < rows.end; ++y) {
+        const std::span<WinnerKey> theirs = from.row(y);
+        const std::span<WinnerKey> ours = into.row(y);
+        for (std::size_t x = 0; x < theirs.size(); ++x) {
+            ours[x] = std::max(ours[x], theirs[x]);
+            theirs[x] = 0;
+        }
+    }
 }
 
 void resolve_keys(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows,

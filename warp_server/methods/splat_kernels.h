@@ -29,6 +29,9 @@ struct BackgroundLookup {
     glm::mat3 source_px_from_target_px{1.0F};  ///< homography of the rotation, columns x, y, 1
 };
 
+/// Lets the keys of `rows` in `from` compete with those in `into`, and clears them.
+void merge_keys(RowRange rows, Image<WinnerKey>& from, Image<WinnerKey>& into);
+
 /// Turns the keys of `target_rows` into colour, depth and coverage, and leaves those keys 0 for the next frame.
 void resolve_keys(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows,
                   Image<WinnerKey>& keys, DisplayFrame& out);

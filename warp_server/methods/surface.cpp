@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "warp_server/band_pool.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_canvas.h"
@@ -13,9 +14,44 @@
 namespace lw {
 namespace {
 
+// Draws one band of rows of the target; one per thread.
+class BandPainter {
+public:
+    void paint(const PatchInput& input, RowRange band, DisplayFrame& out) {
+        canvas_.begin(out, band);
+        draw_list(input, input.prepared->blocks);
+        draw_list(input, input.prepared->patches);
+        draw_list(input, input.prepared->edges);
+        canvas_.finish();
+    }
+
+private:
+    // Patches that reach behind the target eye are cut until their parts are before it, or are single cells.
+    void draw_list(const PatchInput& input, const PatchList& list) {
+        behind_.clear();
+        draw_patches(input, list, canvas_, behind_);
+        if (behind_.empty()) return;
+        parts_.clear();
+        for (const std::uint32_t index : behind_) split_patch(list, index, parts_);
+        while (parts_.size() > 0) {
+            behind_.clear();
+            draw_patches(input, parts_, canvas_, behind_);
+            smaller_parts_.clear();
+            for (const std::uint32_t index : behind_) split_patch(parts_, index, smaller_parts_);
+            std::swap(parts_, smaller_parts_);
+        }
+    }
+
+    SurfaceCanvas canvas_;
+    std::vector<std::uint32_t> behind_;
+    PatchList parts_;
+    PatchList smaller_parts_;
+};
+
 class SurfaceMethod final : public WarpMethod {
 public:
-    explicit SurfaceMethod(std::string label) : label_{std::move(label)} {}
+    SurfaceMethod(std::string label, int threads)
+        : label_{std::move(label)}, pool_{threads}, painters_(static_cast<std::size_t>(threads)) {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
 
@@ -31,15 +67,16 @@ public:
             own = prepare(layer);
             prepared = own.get();
         }
-        const PatchInput input{&pixels, static_cast<const PreparedSurface*>(prepared), &matrices_};
+        input_ = {static_cast<const PreparedSurface*>(prepared), &matrices_};
         matrices_.build(layer, target);
-        count_bad_pixels(*input.prepared);
+        count_bad_pixels(*input_.prepared);
         out.resize(target.camera.size_px);
         if (matrices_.all_identity()) {
             copy_source(pixels, out);
-        } else {
-            draw(input, out);
+            return;
         }
+        out_ = &out;
+        pool_.run(paint_band_);
     }
 
 private:
@@ -68,41 +105,25 @@ private:
         }
     }
 
-    void draw(const PatchInput& input, DisplayFrame& out) {
-        canvas_.begin(out, {0, out.colour.height()});
-        draw_list(input, input.prepared->patches);
-        draw_list(input, input.prepared->edges);
-        canvas_.finish();
-    }
-
-    // Patches that reach behind the target eye are cut until their parts are before it, or are single cells.
-    void draw_list(const PatchInput& input, const PatchList& list) {
-        behind_.clear();
-        draw_patches(input, list, canvas_, behind_);
-        if (behind_.empty()) return;
-        parts_.clear();
-        for (const std::uint32_t index : behind_) split_patch(list, index, parts_);
-        while (parts_.size() > 0) {
-            behind_.clear();
-            draw_patches(input, parts_, canvas_, behind_);
-            smaller_parts_.clear();
-            for (const std::uint32_t index : behind_) split_patch(parts_, index, smaller_parts_);
-            std::swap(parts_, smaller_parts_);
-        }
-    }
-
     std::string label_;
+    BandPool pool_;
+    std::vector<BandPainter> painters_;
     ObjectMatrices matrices_;
-    SurfaceCanvas canvas_;
-    std::vector<std::uint32_t> behind_;
-    PatchList parts_;
-    PatchList smaller_parts_;
+    PatchInput input_;
+    DisplayFrame* out_ = nullptr;
+    // Kept, because making a function object may allocate.
+    std::function<void(int)> paint_band_ = [this](int thread) {
+        const RowRange band = band_of_rows(out_->colour.height(), thread, pool_.threads());
+        painters_[static_cast<std::size_t>(thread)].paint(input_, band, *out_);
+    };
 };
 
 }  // namespace
 
-MadeMethod make_surface_method(std::string label, const MethodSettings& /*settings*/) {
-    return std::unique_ptr<WarpMethod>{std::make_unique<SurfaceMethod>(std::move(label))};
+MadeMethod make_surface_method(std::string label, const MethodSettings& settings) {
+    const Result<int> threads = whole_setting(label, settings, "threads", 1, 1, 16);
+    if (!threads) return threads.error();
+    return std::unique_ptr<WarpMethod>{std::make_unique<SurfaceMethod>(std::move(label), *threads)};
 }
 
 }  // namespace lw

@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "core/colour.h"
+#include "warp_server/methods/linear_colour.h"
 #include "warp_server/methods/surface_kernels.h"
 
 namespace lw {
@@ -27,26 +28,36 @@ void SurfaceCanvas::finish() {
                   frame_->coverage.pixels().data() + first_index_);
 }
 
+float SurfaceCanvas::sort_fragments(std::int32_t newest, float opaque_depth) {
+    const auto goes_before = [](const Fragment& a, const Fragment& b) {
+        if (a.depth != b.depth) return a.depth > b.depth;
+        return std::tie(a.coverage, a.linear.x, a.linear.y, a.linear.z) >
+               std::tie(b.coverage, b.linear.x, b.linear.y, b.linear.z);
+    };
+    sorted_.clear();
+    float covered = 0.0F;
+    for (std::int32_t i = newest; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next) {
+        const Fragment& fragment = fragments_[static_cast<std::size_t>(i)];
+        if (fragment.depth < opaque_depth) continue;
+        covered += fragment.coverage;
+        sorted_.push_back(&fragment);  // insertion: there are two or three
+        for (std::size_t at = sorted_.size() - 1; at > 0 && goes_before(fragment, *sorted_[at - 1]); --at) {
+            std::swap(sorted_[at], sorted_[at - 1]);
+        }
+    }
+    return covered;
+}
+
 // Nearest first, each over what is behind it; the farthest surface takes what is left, because the surfaces of one
 // place fill it together.
 void SurfaceCanvas::composite(std::size_t touched) {
     const std::size_t pixel = first_index_ + touched;
+    Rgba8& colour = frame_->colour.pixels()[pixel];
     const float opaque_depth = frame_->depth.pixels()[pixel];
     const bool has_opaque = opaque_depth >= 0.0F;
-    sorted_.clear();
-    float covered = has_opaque ? 1.0F : 0.0F;
-    for (std::int32_t i = newest_[touched]; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next) {
-        const Fragment& fragment = fragments_[static_cast<std::size_t>(i)];
-        if (fragment.depth < opaque_depth) continue;
-        sorted_.push_back(&fragment);
-        covered += fragment.coverage;
-    }
+    const float covered = sort_fragments(newest_[touched], opaque_depth);
     newest_[touched] = -1;
-    if (sorted_.empty() || covered < 0.5F) return;
-    std::sort(sorted_.begin(), sorted_.end(), [](const Fragment* a, const Fragment* b) {
-        return std::tie(a->depth, a->coverage, a->linear.x, a->linear.y, a->linear.z) >
-               std::tie(b->depth, b->coverage, b->linear.x, b->linear.y, b->linear.z);
-    });
+    if (sorted_.empty() || (!has_opaque && covered < 0.5F)) return;
     glm::vec3 sum{0.0F};
     float left = 1.0F;
     float largest_share = 0.0F;
@@ -62,10 +73,15 @@ void SurfaceCanvas::composite(std::size_t touched) {
         }
     }
     if (has_opaque) {
-        sum += left * linear_of(frame_->colour.pixels()[pixel]);
+        const std::array<float, 256>& linear = linear_from_srgb8_table();
+        sum += left * static_cast<float>(kLinearOne) * glm::vec3{linear[colour.r], linear[colour.g], linear[colour.b]};
         if (left >= largest_share) depth = opaque_depth;
     }
-    frame_->colour.pixels()[pixel] = srgb8_of(sum);
+    const std::array<std::uint8_t, kLinearOne + 1>& encode = srgb8_from_linear15_table();
+    const auto encoded = [&](float linear) {
+        return encode[static_cast<std::size_t>(std::clamp(linear + 0.5F, 0.0F, static_cast<float>(kLinearOne)))];
+    };
+    colour = {encoded(sum.x), encoded(sum.y), encoded(sum.z), 255};
     frame_->depth.pixels()[pixel] = depth;
 }
 

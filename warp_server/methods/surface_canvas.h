@@ -22,7 +22,7 @@ public:
 
     /// A surface that covers a share of pixel `index`, which must be in the band.
     /// @param coverage  in (0, 1]
-    /// @param linear    its colour in linear light
+    /// @param linear    its colour in linear light, 0 to kLinearOne
     void put_fragment(std::size_t index, float depth, float coverage, const glm::vec3& linear) {
         std::int32_t& newest = newest_[index - first_index_];
         if (newest < 0) touched_.push_back(static_cast<std::uint32_t>(index - first_index_));
@@ -35,7 +35,7 @@ public:
 
 private:
     struct Fragment {
-        glm::vec3 linear;
+        glm::vec3 linear;  // 0 to kLinearOne
         float depth;
         float coverage;
         std::int32_t next;  // index of the pixel's fragment before, or -1
@@ -43,6 +43,8 @@ private:
     static constexpr int kNothingByte = 0xBF;  // four of them make the float -1.498: farther than every depth
 
     void composite(std::size_t touched);
+    // The fragments of a pixel that are not behind `opaque_depth`, nearest first, into sorted_; returns their coverage.
+    float sort_fragments(std::int32_t newest, float opaque_depth);
 
     DisplayFrame* frame_ = nullptr;
     RowRange band_;

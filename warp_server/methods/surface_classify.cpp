@@ -158,7 +158,8 @@ private:
     }
 
     void add_patch(int x, int y, int size, const BlockPlane& plane) {
-        add(out_->patches, x, y, size, plane, kAllCorners);
+        // Apart, because writes of many pixels at once and of single ones hold each other up when they alternate.
+        add(size >= kFirstBlock ? out_->blocks : out_->patches, x, y, size, plane, kAllCorners);
     }
 
     // Patches at the rim of the image reach half a pixel further, to the image's edge; the last cells half as far.

@@ -43,7 +43,8 @@ struct IdCount {
 
 struct PreparedSurface final : PreparedLayer {
     glm::ivec2 size_px{0};
-    PatchList patches;  ///< cover their target pixels wholly
+    PatchList blocks;   ///< large patches; they and the small ones cover their target pixels wholly
+    PatchList patches;  ///< small ones: where surfaces are curved, and around edges
     PatchList edges;    ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
     /// Colours in linear light, 15 bits each in 16: red lowest. One more row and a few more pixels than the image, so
     /// that a bilinear read at its last pixel stays inside.

@@ -22,8 +22,8 @@ constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
 constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no image
 // Target pixels per source pixel, in area, below which a plane counts as seen edge-on; negative: from its back.
 constexpr float kSmallestArea = 1e-4F;
+constexpr int kPrefetchRows = 3;  // blocks are narrow, so that the next rows come before the next lines of this one
 constexpr float kSmallestCoverage = 1.0F / 512.0F;  // less changes no 8-bit colour
-constexpr float kLinearScale = 1.0F / static_cast<float>(kLinearOne);
 
 // Patches laid out for one target: the inverse of each one's homography, relative to where its origin lands. With e the
 // offset of a target place from there: k = inverse * e, share = 1 - w_x kx - w_y ky, offset in the source = w / share *
@@ -66,13 +66,19 @@ const LaneOffsets& lane_offsets() {
     return offsets;
 }
 
+// One bit per lane. Reads back exactly the bytes that are written: a wider read would wait for the write to reach the
+// cache.
 template <class D, class M>
-std::uint64_t bits_of(D d, M mask) {
-    std::uint8_t bytes[8] = {};
-    hn::StoreMaskBits(d, mask, bytes);
-    std::uint64_t bits = 0;
-    std::memcpy(&bits, bytes, sizeof(bits));
-    return bits;
+HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+    if constexpr (hn::MaxLanes(D{}) > 8) {
+        std::uint16_t bits = 0;
+        hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+        return bits;
+    } else {
+        std::uint8_t bits = 0;
+        hn::StoreMaskBits(d, mask, &bits);
+        return bits;
+    }
 }
 
 using DF = hn::ScalableTag<float>;
@@ -99,7 +105,8 @@ public:
           depths_{canvas.frame().depth.pixels().data()},
           colours_{canvas.frame().colour.pixels().data()},
           linear_{input.prepared->linear_colours.data()},
-          cubics_{srgb_cubics()} {}
+          cubics_{srgb_cubics()},
+          encode_{srgb8_from_linear15_table().data()} {}
 
     void paint() {
         const hn::ScalableTag<float> d;
@@ -126,8 +133,8 @@ private:
             const PixelMatrix* matrix = input_.matrices->find(id);
             if (matrix == nullptr) continue;
             PlacedPatches placed;
-            for (std::uint64_t bits = place(d, first, *matrix, group, placed); bits != 0; bits &= bits - 1) {
-                const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
+            for (std::uint32_t bits = place(d, first, *matrix, group, placed); bits != 0; bits &= bits - 1) {
+                const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
                 paint_one(first + lane, lane, placed);
             }
         }
@@ -135,7 +142,7 @@ private:
 
     // Which of the patches have pixels in the band.
     template <class D, class M>
-    HWY_INLINE std::uint64_t place(D d, std::size_t first, const PixelMatrix& m, M wanted, PlacedPatches& placed) {
+    HWY_INLINE std::uint32_t place(D d, std::size_t first, const PixelMatrix& m, M wanted, PlacedPatches& placed) {
         using V = hn::Vec<D>;
         const hn::RebindToSigned<D> di;
         const auto set = [&](float value) { return hn::Set(d, value); };
@@ -188,8 +195,8 @@ private:
                 high_y = hn::Max(high_y, place_y);
             }
         }
-        for (std::uint64_t bits = bits_of(d, hn::AndNot(in_front, wanted)); bits != 0; bits &= bits - 1) {
-            behind_.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctzll(bits))));
+        for (std::uint32_t bits = bits_of(d, hn::AndNot(in_front, wanted)); bits != 0; bits &= bits - 1) {
+            behind_.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctz(bits))));
         }
         const auto bounded = [&](V value, float low, float high) {
             return hn::ConvertTo(di, hn::Min(hn::Max(value, set(low)), set(high)));
@@ -207,7 +214,7 @@ private:
             hn::And(hn::Lt(hn::Abs(target_x), set(kOutOfReachPx)), hn::Lt(hn::Abs(target_y), set(kOutOfReachPx)));
         const auto visible =
             hn::And(hn::And(wanted, hn::And(in_front, in_reach)), hn::And(faces_us, hn::RebindMask(d, not_empty)));
-        const std::uint64_t bits = bits_of(d, visible);
+        const std::uint32_t bits = bits_of(d, visible);
         if (bits == 0) return 0;
 
         const V scale = hn::Div(set(1.0F), determinant);
@@ -297,6 +304,8 @@ private:
     HWY_INLINE void paint_run(std::size_t patch, const Solved& solved, int x, int y, M inside) {
         const std::size_t index =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(target_width_) + static_cast<std::size_t>(x);
+        __builtin_prefetch(depths_ + index + kPrefetchRows * target_width_, 1);
+        __builtin_prefetch(colours_ + index + kPrefetchRows * target_width_, 1);
         const VF shown = hn::LoadU(DF{}, depths_ + index);
         const auto nearer = hn::And(inside, hn::Lt(shown, solved.depth));
         if (hn::AllFalse(DF{}, nearer)) return;
@@ -321,15 +330,13 @@ private:
         hn::Store(taps.index, DI{}, tap);
         hn::Store(taps.fx, DI{}, fx);
         hn::Store(taps.fy, DI{}, fy);
-        for (std::uint64_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
+        for (std::uint32_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
             float& shown = depths_[indices[lane]];
             if (shown >= depths[lane]) continue;
             shown = depths[lane];
             const std::uint64_t word = read_word(tap[lane], fx[lane], fy[lane]);
-            const auto channel = [&](unsigned shift) {
-                return srgb8_from_linear15(static_cast<std::int32_t>(word >> shift & 0x7FFFU), cubics_);
-            };
+            const auto channel = [&](unsigned shift) { return encode_[word >> shift & 0x7FFFU]; };
             colours_[indices[lane]] = {channel(0), channel(16), channel(32), 255};
         }
     }
@@ -381,8 +388,8 @@ private:
     HWY_INLINE LinearColours read_bilinear(hn::VFromD<DI> tap, hn::VFromD<DI> fx, hn::VFromD<DI> fy) const {
         HWY_ALIGN std::int32_t taps[kMaxLanes];
         hn::Store(tap, DI{}, taps);
-        __builtin_prefetch(linear_ + taps[0] + 3 * source_size_px_.x);
-        __builtin_prefetch(linear_ + taps[kMaxLanes / 2] + 3 * source_size_px_.x);
+        __builtin_prefetch(linear_ + taps[0] + (kPrefetchRows + 1) * source_size_px_.x);
+        __builtin_prefetch(linear_ + taps[kMaxLanes / 2] + (kPrefetchRows + 1) * source_size_px_.x);
         const auto across = twice_in_halves(fx);
         const auto down = twice_in_halves(fy);
         const auto first = read_blocks(taps, 0, across, down);
@@ -520,8 +527,8 @@ private:
                                      static_cast<std::size_t>(y) * static_cast<std::size_t>(source_size_px_.x) +
                                      static_cast<std::size_t>(x);
         const std::uint64_t words[4] = {first[0], first[right], first[down], first[right + down]};
-        for (std::uint64_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::size_t>(__builtin_ctzll(bits));
+        for (std::uint32_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
             if (depths_[indices[lane]] >= depths[lane]) continue;
             const float u = std::clamp(dx[lane], 0.0F, 1.0F);
             const float v = std::clamp(dy[lane], 0.0F, 1.0F);
@@ -538,7 +545,7 @@ private:
             }
             if (coverage < kSmallestCoverage) continue;
             canvas_.put_fragment(static_cast<std::size_t>(indices[lane]), depths[lane], coverage,
-                                 linear * (kLinearScale / coverage));
+                                 linear * (1.0F / coverage));
         }
     }
 
@@ -552,6 +559,7 @@ private:
     Rgba8* colours_;
     const std::uint64_t* linear_;
     const SrgbCubics& cubics_;
+    const std::uint8_t* encode_;  // the same curve as a table, for reads one by one
 };
 
 void draw_patches_here(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,

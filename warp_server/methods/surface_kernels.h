@@ -9,7 +9,6 @@
 namespace lw {
 
 struct PatchInput {
-    const CpuPixels* pixels = nullptr;
     const PreparedSurface* prepared = nullptr;
     const ObjectMatrices* matrices = nullptr;
 };

@@ -1,0 +1,163 @@
+/// The vector loops of the CPU methods: every instruction set and any number of threads give the same bytes.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <atomic>
+
+#include "core/colour.h"
+#include "tests/warp_server/analytic_scene.h"
+#include "tests/warp_server/image_assertions.h"
+#include "tests/warp_server/synthetic_layers.h"
+#include "warp_server/band_pool.h"
+#include "warp_server/methods/linear_colour.h"
+#include "warp_server/methods/row_range.h"
+#include "warp_server/methods/surface_cells.h"
+#include "warp_server/methods/surface_classify.h"
+#include "warp_server/methods/surface_links.h"
+
+namespace lw::test {
+namespace {
+
+// Runs with one instruction set at a time, and puts the best one back.
+class InstructionSets {
+public:
+    InstructionSets() : targets_{hwy::SupportedAndGeneratedTargets()} {}
+    ~InstructionSets() { hwy::SetSupportedTargetsForTest(0); }
+    [[nodiscard]] const std::vector<std::int64_t>& all() const { return targets_; }
+    static void use(std::int64_t target) { hwy::SetSupportedTargetsForTest(target); }
+
+private:
+    std::vector<std::int64_t> targets_;
+};
+
+bool same_pixels(const DisplayFrame& a, const DisplayFrame& b) {
+    for (std::size_t i = 0; i < a.coverage.pixels().size(); ++i) {
+        if (a.coverage.pixels()[i] != b.coverage.pixels()[i]) return false;
+        if (a.coverage.pixels()[i] == Coverage::hole) continue;
+        if (a.colour.pixels()[i] != b.colour.pixels()[i] || a.depth.pixels()[i] != b.depth.pixels()[i]) return false;
+    }
+    return true;
+}
+
+class VectorMethod : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(All, VectorMethod, ::testing::Values("splat", "surface"));
+
+TEST_P(VectorMethod, EveryInstructionSetGivesTheSameBytes) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const std::vector<ObjectTransform> movers = scene.movers(0.1);
+    InstructionSets sets;
+    for (const glm::ivec2& size_px : {glm::ivec2{131, 67}, glm::ivec2{5, 3}, glm::ivec2{1, 1}}) {
+        const Camera source = street_camera(size_px);
+        const Camera target = moved(source, {0.05, 0.01, -0.06}, 3.0, 1.0, 2.0);
+        const Layer layer = scene.draw(source, 0.0);
+        const DisplayFrame best = warp_once(GetParam(), layer, {target, movers});
+        for (const std::int64_t set : sets.all()) {
+            InstructionSets::use(set);
+            const DisplayFrame frame = warp_once(GetParam(), layer, {target, movers});
+            EXPECT_TRUE(same_pixels(frame, best)) << hwy::TargetName(set) << " " << size_px.x << "x" << size_px.y;
+        }
+        hwy::SetSupportedTargetsForTest(0);
+    }
+}
+
+TEST_P(VectorMethod, AnyNumberOfThreadsGivesTheSameBytes) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const std::vector<ObjectTransform> movers = scene.movers(0.1);
+    const Camera source = street_camera({160, 121});
+    const Camera target = moved(source, {0.05, 0.01, -0.06}, 3.0, 1.0, 8.0);
+    const Layer layer = scene.draw(source, 0.0);
+    const DisplayFrame alone = warp_once(GetParam(), layer, {target, movers});
+    for (const char* threads : {"2", "3", "16"}) {
+        const auto method = method_named(GetParam() + ":threads=" + threads);
+        DisplayFrame frame;
+        for (int repeat = 0; repeat < 3; ++repeat) {
+            method->warp(layer, {target, movers}, frame);
+            ASSERT_TRUE(same_pixels(frame, alone)) << threads << " threads, repeat " << repeat;
+        }
+    }
+}
+
+TEST(BandPool, RunsEveryBandOnceAndAgain) {
+    for (const int threads : {1, 2, 5}) {
+        BandPool pool{threads};
+        std::vector<std::atomic<int>> runs(static_cast<std::size_t>(threads));
+        const std::function<void(int)> work = [&](int i) { ++runs[static_cast<std::size_t>(i)]; };
+        for (int repeat = 1; repeat <= 200; ++repeat) {
+            pool.run(work);
+            for (const std::atomic<int>& count : runs) ASSERT_EQ(count.load(), repeat);
+        }
+    }
+}
+
+TEST(BandPool, BandsMeetAndCoverAllRows) {
+    for (const int rows : {0, 1, 7, 1024}) {
+        int next = 0;
+        for (int i = 0; i < 3; ++i) {
+            const RowRange band = band_of_rows(rows, i, 3);
+            EXPECT_EQ(band.begin, next);
+            next = band.end;
+        }
+        EXPECT_EQ(next, rows);
+    }
+}
+
+TEST(LinearColour, GivesEveryStoredColourBack) {
+    ColourImage image{{256, 1}};
+    for (int i = 0; i < 256; ++i) {
+        const auto value = static_cast<std::uint8_t>(i);
+        image.at(i, 0) = {value, static_cast<std::uint8_t>(255 - i), value, 255};
+    }
+    std::vector<std::uint64_t> linear;
+    linearise(image, linear);
+    for (int i = 0; i < 256; ++i) {
+        const std::uint64_t word = linear[static_cast<std::size_t>(i)];
+        EXPECT_EQ(srgb8_from_linear15(static_cast<std::int32_t>(word & 0xFFFFU), srgb_cubics()), i);
+        EXPECT_EQ(srgb8_from_linear15(static_cast<std::int32_t>(word >> 16U & 0xFFFFU), srgb_cubics()), 255 - i);
+        EXPECT_EQ(srgb8_from_linear15_table()[word >> 32U & 0xFFFFU], i);
+    }
+}
+
+TEST(LinearColour, FollowsTheExactCurve) {
+    for (int linear15 = 0; linear15 <= kLinearOne; ++linear15) {
+        const double exact = 255.0 * srgb_from_linear(static_cast<double>(linear15) / kLinearOne);
+        // Half a step of rounding, and a tenth for the cubics.
+        ASSERT_NEAR(srgb8_from_linear15(linear15, srgb_cubics()), exact, 0.6) << linear15;
+    }
+}
+
+TEST(SurfaceLinks, PlanesAreOneSurfaceAtAnySlant) {
+    EXPECT_TRUE(on_one_surface(0.010F, 0.020F, 0.030F, 0.040F));  // a floor towards the horizon
+    EXPECT_TRUE(on_one_surface(0.5F, 0.020F, 0.030F, 0.040F));    // beside an edge on one side
+    EXPECT_TRUE(on_one_surface(0.5F, 0.0200F, 0.0201F, 0.6F));    // a strip two pixels wide
+    EXPECT_FALSE(on_one_surface(0.02F, 0.02F, 0.03F, 0.03F));     // a step
+    EXPECT_FALSE(on_one_surface(0.0F, 0.0F, 0.001F, 0.002F));     // the horizon
+    EXPECT_TRUE(on_one_surface(0.0F, 0.0F, 0.0F, 0.0F));          // background
+    EXPECT_FALSE(on_one_surface(0.02F, -1.0F, 0.02F, 0.02F));     // unusable
+}
+
+TEST(SurfaceCells, CornersAreGroupedByTheirLinks) {
+    EXPECT_EQ(corner_groups(0).count, 4);
+    EXPECT_EQ(corner_groups(kLinkTop | kLinkBottom).count, 2);
+    EXPECT_EQ(corner_groups(kLinkTop | kLinkBottom).corners[0], 0b0011);
+    EXPECT_EQ(corner_groups(kLinkTop | kLinkBottom).corners[1], 0b1100);
+    EXPECT_EQ(corner_groups(kLinkTop | kLinkLeft | kLinkRight).count, 1);
+    EXPECT_EQ(corner_groups(kLinkFalling | kLinkRising).count, 2);
+    for (int sides = 0; sides < 16; ++sides) {
+        const auto bits = static_cast<std::uint8_t>(sides);
+        EXPECT_EQ(joins_all_corners(bits), corner_groups(bits).count == 1) << sides;
+    }
+}
+
+TEST(SurfaceClassify, AWallIsOneBlockPerSquareAndHasNoEdges) {
+    const AnalyticScene scene = AnalyticScene::wall(3.0, 0.4);
+    const Layer layer = scene.draw(street_camera({128, 128}), 0.0);
+    const auto prepared = classify_surfaces(layer.cpu());
+    EXPECT_EQ(prepared->blocks.size(), 4U);
+    EXPECT_EQ(prepared->patches.size(), 0U);
+    EXPECT_EQ(prepared->edges.size(), 0U);
+}
+
+}  // namespace
+}  // namespace lw::test

@@ -7,22 +7,32 @@
 #include "warp_server/methods/factories.h"
 
 namespace lw {
+
+// The list of warp methods. To add one: a file with `MadeMethod make_ID_method(std::string, const MethodSettings&)`,
+// and a line here:  ID, name, needs GL, settings, one line for --help.
+#define LW_WARP_METHODS(METHOD)                                                                           \
+    METHOD(stale, "stale", false, "", "newest frame, unwarped")                                           \
+    METHOD(rotation, "rotation", false, "", "homography of the head's rotation, bilinear")                \
+    METHOD(points, "points", true, "size_px", "every pixel a GL point")                                   \
+    METHOD(mesh, "mesh", true, "", "a vertex per pixel, triangles between neighbours")                    \
+    METHOD(compute, "compute", true, "", "every pixel a point, in compute shaders")                       \
+    METHOD(inverse_gl, "inverse-gl", true, "steps", "the inverse search in a compute shader")             \
+    METHOD(surface_gl, "surface-gl", true, "", "surface, drawn by GL")                                    \
+    METHOD(splat, "splat", false, "threads", "every pixel a point, on the CPU")                           \
+    METHOD(inverse, "inverse", false, "steps", "search in the source for every target pixel, on the CPU") \
+    METHOD(surface, "surface", false, "threads",                                                          \
+           "surfaces placed by their pieces, colour solved on each; the default")                         \
+    METHOD(reference, "reference", false, "", "double precision, slow and obvious: the oracle of the tests")
+
+#define LW_DECLARE(id, ...) MadeMethod make_##id##_method(std::string label, const MethodSettings& settings);
+LW_WARP_METHODS(LW_DECLARE)
+#undef LW_DECLARE
+
 namespace {
 
-constexpr MethodEntry kMethods[] = {
-    {"stale", "newest frame, unwarped", false, "", make_stale_method},
-    {"rotation", "homography of the head's rotation, bilinear", false, "", make_rotation_method},
-    {"points", "every pixel a GL point", true, "size_px", make_points_method},
-    {"mesh", "a vertex per pixel, triangles between neighbours", true, "", make_mesh_method},
-    {"compute", "every pixel a point, in compute shaders", true, "", make_compute_method},
-    {"inverse-gl", "the inverse search in a compute shader", true, "steps", make_inverse_gl_method},
-    {"surface-gl", "surface, drawn by GL", true, "", make_surface_gl_method},
-    {"splat", "every pixel a point, on the CPU", false, "threads", make_splat_method},
-    {"inverse", "search in the source for every target pixel, on the CPU", false, "steps", make_inverse_method},
-    {"surface", "surfaces placed by their pieces, colour solved on each; the default", false, "threads",
-     make_surface_method},
-    {"reference", "double precision, slow and obvious: the oracle of the tests", false, "", make_reference_method},
-};
+#define LW_ENTRY(id, name, needs_gl, settings, summary) {name, summary, needs_gl, settings, make_##id##_method},
+constexpr MethodEntry kMethods[] = {LW_WARP_METHODS(LW_ENTRY)};
+#undef LW_ENTRY
 
 std::string_view name_of(std::string_view specification) { return specification.substr(0, specification.find(':')); }
 

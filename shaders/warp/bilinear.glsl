@@ -1,13 +1,7 @@
-// Colours between source pixels, bilinear in linear light (IEC 61966-2-1), as stored bytes again.
+// Colours between source pixels, bilinear in linear light, as stored bytes again.
 // Needs warp/source_layer.glsl and a uniform source_size_px.
 
-vec3 linear_from_srgb(vec3 srgb) {
-    return mix(srgb / 12.92, pow((srgb + 0.055) / 1.055, vec3(2.4)), greaterThan(srgb, vec3(0.04045)));
-}
-
-vec3 srgb_from_linear(vec3 light) {
-    return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, greaterThan(light, vec3(0.0031308)));
-}
+#include "warp/srgb.glsl"
 
 // Exactly the stored colour at a pixel's centre, and where all four agree.
 vec3 bilinear_colour(vec2 source_px) {

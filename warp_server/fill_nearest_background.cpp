@@ -1,12 +1,12 @@
 #include "warp_server/fill_nearest_background.h"
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
+#include <vector>
 
 namespace lw {
 namespace {
-
-constexpr int kNone = -1;
 
 // Hole pixels [begin, end) of one row.
 struct HoleRun {
@@ -16,25 +16,27 @@ struct HoleRun {
     std::size_t first_hole = 0;  // index of its first pixel among all hole pixels
 };
 
-// A place to copy from and how far away it is.
+// A reached pixel to copy from. One that does not exist is infinitely near and far away, so it is never chosen.
 struct Candidate {
-    int x = kNone;
-    int y = kNone;
+    float depth = std::numeric_limits<float>::infinity();
     int distance_px = std::numeric_limits<int>::max();
-    float depth = 0.0F;
-    [[nodiscard]] bool exists() const { return x != kNone; }
+    int index = -1;  // of the pixel
 };
 
 // Ends of one surface seen at a slant differ by a few percent in depth; then the nearer end looks better.
 constexpr float kSameDepthPart = 0.1F;
 
-// The farther surface; the closer end when both are about as far.
-Candidate background_of(const Candidate& a, const Candidate& b) {
-    if (!a.exists() || !b.exists()) return a.exists() ? a : b;
-    const Candidate& farther = b.depth < a.depth ? b : a;
-    const Candidate& nearer = b.depth < a.depth ? a : b;
-    const bool same_surface = nearer.depth - farther.depth <= kSameDepthPart * nearer.depth;
-    return same_surface && nearer.distance_px < farther.distance_px ? nearer : farther;
+// The farther surface; the closer end when both are about as far. No branches: it runs on several pixels at once.
+inline Candidate background_of(const Candidate& a, const Candidate& b) {
+    const bool b_is_farther = b.depth < a.depth;
+    const float farther_depth = b_is_farther ? b.depth : a.depth;
+    const float nearer_depth = b_is_farther ? a.depth : b.depth;
+    const int farther_distance_px = b_is_farther ? b.distance_px : a.distance_px;
+    const int nearer_distance_px = b_is_farther ? a.distance_px : b.distance_px;
+    const bool is_same_surface = nearer_depth - farther_depth <= kSameDepthPart * nearer_depth;
+    const bool take_nearer = is_same_surface & (nearer_distance_px < farther_distance_px);
+    const bool take_b = b_is_farther != take_nearer;
+    return {take_b ? b.depth : a.depth, take_b ? b.distance_px : a.distance_px, take_b ? b.index : a.index};
 }
 
 class NearestBackgroundFill final : public Fill {
@@ -42,37 +44,44 @@ public:
     [[nodiscard]] std::string_view name() const override { return "nearest-background"; }
 
     void apply(DisplayFrame& frame) override {
+        width_ = frame.coverage.width();
+        const auto columns = static_cast<std::size_t>(width_);
+        rows_.resize(columns);
+        depths_.resize(columns);
+        chosen_.resize(columns);
         collect_runs(frame);
         find_ends_below(frame);
-        for (std::size_t hole = 0; hole < chosen_index_.size(); ++hole) {
-            const std::size_t index = hole_index_[hole];
-            const std::size_t from = chosen_index_[hole];
-            frame.coverage.pixels()[index] = Coverage::filled;
-            frame.colour.pixels()[index] = from == kNothing ? kNothingColour : frame.colour.pixels()[from];
-            frame.depth.pixels()[index] = from == kNothing ? 0.0F : frame.depth.pixels()[from];
+        for (const HoleRun& run : runs_) {
+            update_columns(frame, run, run.y - 1);
+            choose(frame, run);
+            copy_chosen(frame, run);
+        }
+        // Last, because the passes above tell holes from reached pixels by it.
+        for (const HoleRun& run : runs_) {
+            const auto row = frame.coverage.row(run.y);
+            std::fill(row.begin() + run.begin, row.begin() + run.end, Coverage::filled);
         }
     }
 
 private:
-    static constexpr std::size_t kNothing = std::numeric_limits<std::size_t>::max();
+    static constexpr int kNone = -1;
     static constexpr Rgba8 kNothingColour{128, 128, 128, 255};  // no pixel of the hole's row and column was reached
 
-    // Runs of hole pixels, top row first, and for each hole pixel the reached row above it.
     void collect_runs(const DisplayFrame& frame) {
         runs_.clear();
-        hole_index_.clear();
-        row_above_.clear();
-        row_of_column_.assign(static_cast<std::size_t>(frame.coverage.width()), kNone);
-        const int width = frame.coverage.width();
+        std::size_t holes = 0;
         for (int y = 0; y < frame.coverage.height(); ++y) {
             const Coverage* coverage = frame.coverage.row(y).data();
-            for (int x = next_hole(coverage, 0, width); x < width;) {
-                HoleRun run{y, x, x, hole_index_.size()};
-                for (; run.end < width && coverage[run.end] == Coverage::hole; ++run.end) add_hole(frame, run.end, y);
-                x = next_hole(coverage, run.end, width);
+            for (int x = next_hole(coverage, 0, width_); x < width_;) {
+                HoleRun run{y, x, x, holes};
+                while (run.end < width_ && coverage[run.end] == Coverage::hole) ++run.end;
+                holes += static_cast<std::size_t>(run.end - run.begin);
+                x = next_hole(coverage, run.end, width_);
                 runs_.push_back(run);
             }
         }
+        row_below_.resize(holes);
+        depth_below_.resize(holes);
     }
 
     static int next_hole(const Coverage* coverage, int begin, int width) {
@@ -81,62 +90,82 @@ private:
         return found == nullptr ? width : static_cast<int>(static_cast<const Coverage*>(found) - coverage);
     }
 
-    void add_hole(const DisplayFrame& frame, int x, int y) {
-        int& above = row_of_column_[static_cast<std::size_t>(x)];
-        if (y == 0) {
-            above = kNone;
-        } else if (frame.coverage.at(x, y - 1) != Coverage::hole) {
-            above = y - 1;
+    // Scanning along columns, rows_ and depths_ hold the last reached pixel of each one, where the last row that was
+    // seen there is a hole. `beside` is the row that the scan comes from; outside of the image nothing is reached.
+    void update_columns(const DisplayFrame& frame, const HoleRun& run, int beside) {
+        int* rows = rows_.data();
+        float* depths = depths_.data();
+        if (beside < 0 || beside >= frame.coverage.height()) {
+            std::fill(rows + run.begin, rows + run.end, kNone);
+            std::fill(depths + run.begin, depths + run.end, std::numeric_limits<float>::infinity());
+            return;
         }
-        row_above_.push_back(above);
-        hole_index_.push_back(static_cast<std::size_t>(y) * static_cast<std::size_t>(frame.coverage.width()) +
-                              static_cast<std::size_t>(x));
+        const Coverage* coverage_beside = frame.coverage.row(beside).data();
+        const float* depth_beside = frame.depth.row(beside).data();
+        for (int x = run.begin; x < run.end; ++x) {
+            const bool is_reached = coverage_beside[x] != Coverage::hole;
+            rows[x] = is_reached ? beside : rows[x];
+            depths[x] = is_reached ? depth_beside[x] : depths[x];
+        }
     }
 
-    // Bottom row first, so that the reached row below each hole pixel is known; then all four ends are.
+    // Bottom row first; what is below each hole pixel is kept until the way back.
     void find_ends_below(const DisplayFrame& frame) {
-        chosen_index_.assign(hole_index_.size(), kNothing);
-        const int last_row = frame.coverage.height() - 1;
         for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
-            for (int x = run->begin; x < run->end; ++x) {
-                int& below = row_of_column_[static_cast<std::size_t>(x)];
-                if (run->y == last_row) {
-                    below = kNone;
-                } else if (frame.coverage.at(x, run->y + 1) != Coverage::hole) {
-                    below = run->y + 1;
-                }
-                const std::size_t hole = run->first_hole + static_cast<std::size_t>(x - run->begin);
-                chosen_index_[hole] = choose(frame, *run, x, row_above_[hole], below);
-            }
+            update_columns(frame, *run, run->y + 1);
+            std::copy(rows_.begin() + run->begin, rows_.begin() + run->end,
+                      row_below_.begin() + static_cast<std::ptrdiff_t>(run->first_hole));
+            std::copy(depths_.begin() + run->begin, depths_.begin() + run->end,
+                      depth_below_.begin() + static_cast<std::ptrdiff_t>(run->first_hole));
         }
     }
 
-    static Candidate candidate(const DisplayFrame& frame, int x, int y, int distance_px) {
-        return {x, y, distance_px, frame.depth.at(x, y)};
-    }
-
-    static std::size_t choose(const DisplayFrame& frame, const HoleRun& run, int x, int above, int below) {
+    // For each pixel of the run the index of the pixel it copies, in chosen_.
+    void choose(const DisplayFrame& frame, const HoleRun& run) {
+        const int row_index = run.y * width_;
         Candidate left;
         Candidate right;
-        Candidate up;
-        Candidate down;
-        if (run.begin > 0) left = candidate(frame, run.begin - 1, run.y, x - run.begin + 1);
-        if (run.end < frame.coverage.width()) right = candidate(frame, run.end, run.y, run.end - x);
-        if (above != kNone) up = candidate(frame, x, above, run.y - above);
-        if (below != kNone) down = candidate(frame, x, below, below - run.y);
-        const Candidate along_row = background_of(left, right);
-        const Candidate along_column = background_of(up, down);
-        const Candidate& best = along_column.distance_px < along_row.distance_px ? along_column : along_row;
-        if (!best.exists()) return kNothing;
-        return static_cast<std::size_t>(best.y) * static_cast<std::size_t>(frame.coverage.width()) +
-               static_cast<std::size_t>(best.x);
+        if (run.begin > 0) left = {frame.depth.at(run.begin - 1, run.y), 0, row_index + run.begin - 1};
+        if (run.end < width_) right = {frame.depth.at(run.end, run.y), 0, row_index + run.end};
+        const bool has_left = left.index >= 0;
+        const bool has_right = right.index >= 0;
+        constexpr int kFarAway = std::numeric_limits<int>::max();
+        const int* above = rows_.data();
+        const float* depth_above = depths_.data();
+        const int* below = row_below_.data() + run.first_hole;
+        const float* depth_below = depth_below_.data() + run.first_hole;
+        for (int x = run.begin; x < run.end; ++x) {
+            const int i = x - run.begin;
+            left.distance_px = has_left ? i + 1 : kFarAway;
+            right.distance_px = has_right ? run.end - x : kFarAway;
+            const Candidate up{depth_above[x], above[x] >= 0 ? run.y - above[x] : kFarAway, above[x] * width_ + x};
+            const Candidate down{depth_below[i], below[i] >= 0 ? below[i] - run.y : kFarAway, below[i] * width_ + x};
+            const Candidate along_row = background_of(left, right);
+            const Candidate along_column = background_of(up, down);
+            const bool take_column = along_column.distance_px < along_row.distance_px;
+            chosen_[static_cast<std::size_t>(x)] = take_column ? along_column.index : along_row.index;
+        }
     }
 
-    std::vector<HoleRun> runs_;
-    std::vector<std::size_t> hole_index_;    // pixel index of each hole pixel, in reading order
-    std::vector<int> row_above_;             // of each hole pixel: the reached row above, or kNone
-    std::vector<int> row_of_column_;         // while scanning: of each column the last reached row beside a hole
-    std::vector<std::size_t> chosen_index_;  // of each hole pixel: where its colour comes from
+    void copy_chosen(DisplayFrame& frame, const HoleRun& run) const {
+        Rgba8* colours = frame.colour.pixels().data();
+        float* depths = frame.depth.pixels().data();
+        const std::size_t row_index = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(width_);
+        for (int x = run.begin; x < run.end; ++x) {
+            const int from = chosen_[static_cast<std::size_t>(x)];
+            const std::size_t to = row_index + static_cast<std::size_t>(x);
+            colours[to] = from < 0 ? kNothingColour : colours[from];
+            depths[to] = from < 0 ? 0.0F : depths[from];
+        }
+    }
+
+    int width_ = 0;
+    std::vector<HoleRun> runs_;  // top row first
+    std::vector<int> rows_;      // per column, see update_columns()
+    std::vector<float> depths_;
+    std::vector<int> row_below_;  // per hole pixel: the reached row below, or kNone
+    std::vector<float> depth_below_;
+    std::vector<int> chosen_;  // per column, of one run
 };
 
 }  // namespace

@@ -23,7 +23,8 @@ ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed
       exchange_{exchange},
       predictor_{std::move(predictor)},
       prepare_{std::move(prepare)},
-      settings_{std::move(settings)} {
+      settings_{std::move(settings)},
+      cameras_{settings_.camera, settings_.source} {
     LW_CHECK(predictor_ != nullptr, "a client without a predictor");
     records_.reserve(4096);  // minutes of frames: growing would cost a frame now and then
 }
@@ -45,7 +46,8 @@ void ClientLoop::draw_and_publish() {
     const PredictedPose head = predictor_->predict(head_, sampled, target);
 
     auto layer = layers_.acquire();
-    layer->camera = settings_.camera;
+    // A frame is shown until one period after it was published.
+    layer->camera = cameras_.next(head_, sampled, latency_ + period_);
     layer->camera.world_from_eye = head.world_from_head;
     layer->pose_sampled = head.newest_sample;
     layer->scene_time_s = seconds_of(target);
@@ -55,9 +57,10 @@ void ClientLoop::draw_and_publish() {
     record.times.pose_sampled = head.newest_sample;
     record.times.render_begin = clock_.now();
     if (settings_.textures) {
-        layer->pixels = renderer_.draw_to_textures(layer->camera, layer->scene_time_s, settings_.source_samples);
+        layer->pixels =
+            renderer_.draw_to_textures(layer->camera, layer->scene_time_s, settings_.source.samples_per_axis);
     } else {
-        renderer_.draw_resolved(layer->camera, layer->scene_time_s, settings_.source_samples, layer->cpu());
+        renderer_.draw_resolved(layer->camera, layer->scene_time_s, settings_.source.samples_per_axis, layer->cpu());
     }
     record.counters = renderer_.counters();
     renderer_.mover_placements(layer->scene_time_s, layer->movers);

@@ -9,6 +9,7 @@
 
 #include "client_renderer/layer_pool.h"
 #include "client_renderer/scene_renderer.h"
+#include "client_renderer/source_camera.h"
 #include "core/clock.h"
 #include "frame_link/frame_exchange.h"
 #include "frame_link/prediction.h"
@@ -16,12 +17,12 @@
 namespace lw {
 
 struct ClientSettings {
-    Camera camera;        ///< size, field of view and near plane; its pose is ignored
-    double max_hz = 0.0;  ///< 0: as fast as it can
+    Camera camera;          ///< the display's size, field of view and near plane; its pose is ignored
+    SourceSettings source;  ///< what is drawn for it
+    double max_hz = 0.0;    ///< 0: as fast as it can
     bool predict_source_pose =
-        true;                ///< draw for the middle of the frame's life on the display (--source-pose predicted)
-    int source_samples = 1;  ///< squared samples per pixel, resolved per surface (--source-samples): 1, 2 or 4
-    bool textures = false;   ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory
+        true;               ///< draw for the middle of the frame's life on the display (--source-pose predicted)
+    bool textures = false;  ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory
 };
 
 /// What runs before a layer is published: the warp method's prepare step, handed in by apps.
@@ -67,6 +68,7 @@ private:
     std::unique_ptr<HeadPosePredictor> predictor_;
     PrepareLayer prepare_;
     ClientSettings settings_;
+    SourceCameras cameras_;
     LayerPool layers_;
     std::atomic<bool> stop_{false};
     std::vector<ClientFrameRecord> records_;

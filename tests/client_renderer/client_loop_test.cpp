@@ -148,6 +148,19 @@ TEST_F(ClientLoopTest, TheSampledPoseIsTheNewestOne) {
     }
 }
 
+TEST_F(ClientLoopTest, DrawsTheSourceThatWasAskedFor) {
+    ClientSettings settings;
+    settings.source = {2, 1.5, 0.1};
+    auto loop = make(settings);
+    loop->draw_and_publish();
+    settings.camera.size_px = {8, 4};
+    const Camera expected = source_camera(settings.camera, 1.5, 0.1);
+    EXPECT_EQ(renderer_.cameras.back().size_px, expected.size_px);
+    EXPECT_EQ(renderer_.cameras.back().fov, expected.fov);
+    EXPECT_EQ(renderer_.samples.back(), 2);
+    EXPECT_EQ(exchange_.latest()->layers[0]->camera, renderer_.cameras.back());
+}
+
 TEST_F(ClientLoopTest, ALateFrameDoesNotHurryTheNextOnes) {
     ClientSettings settings;
     settings.max_hz = 10.0;

@@ -65,8 +65,16 @@ LiveSummary summary_of(const LiveResult& result) {
     return summary;
 }
 
+double source_pixels_ratio(const LiveResult& result) {
+    if (result.source_views.empty()) return 0.0;
+    double sum = 0.0;
+    for (const SourceView& view : result.source_views) sum += pixels_ratio(view.camera, result.display_camera);
+    return sum / static_cast<double>(result.source_views.size());
+}
+
 void describe_live_run(Report& report, const Options& options, const LiveResult& result) {
     const LiveSummary summary = summary_of(result);
+    report.set("settings/source_pixels_ratio", source_pixels_ratio(result));
     report.set("display/hz", options.display_hz);
     report.set("display/refreshes", summary.display.refreshes);
     report.set("display/missed", summary.display.missed);

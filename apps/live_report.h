@@ -28,6 +28,9 @@ struct LiveSummary {
 /// Pure.
 [[nodiscard]] LiveSummary summary_of(const LiveResult& result);
 
+/// Pixels of the rendered frames over those of the display, mean over the frames; 0 without frames. Pure.
+[[nodiscard]] double source_pixels_ratio(const LiveResult& result);
+
 /// `display`, `app`, `latency_ms`, `warp_ms`, `scheduling` and the rest.
 void describe_live_run(Report& report, const Options& options, const LiveResult& result);
 

@@ -211,7 +211,7 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     Camera camera = options_.camera();
     camera.world_from_eye = trace_.at(0.0);
     CpuPixels pixels;
-    renderer->draw(camera, 0.0, pixels);
+    renderer->draw_resolved(camera, 0.0, options_.source.samples_per_axis, pixels);
     return Done{};
 }
 
@@ -220,6 +220,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     settings.camera = options_.camera();
     settings.max_hz = options_.app_hz.value_or(0.0);
     settings.predict_source_pose = options_.source_pose == SourcePose::predicted;
+    settings.source = options_.source;
     settings.textures = textures_;
     const auto prepare = [this](Layer& layer) {
         result_.source_views.push_back({layer.camera, layer.scene_time_s});

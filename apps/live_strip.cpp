@@ -29,11 +29,11 @@ double displacement_rad(const Pose& source, const Pose& target) {
            glm::length(target.position_m - source.position_m) / 3.0;
 }
 
-RenderedFrame draw_again(const SourceView& view, SceneRenderer& renderer) {
+RenderedFrame draw_again(const SourceView& view, int source_samples, SceneRenderer& renderer) {
     auto layer = std::make_shared<Layer>();
     layer->camera = view.camera;
     layer->scene_time_s = view.scene_time_s;
-    renderer.draw(view.camera, view.scene_time_s, layer->pixels.emplace<CpuPixels>());
+    renderer.draw_resolved(view.camera, view.scene_time_s, source_samples, layer->pixels.emplace<CpuPixels>());
     renderer.mover_placements(view.scene_time_s, layer->movers);
     RenderedFrame frame;
     frame.layers = {std::move(layer)};
@@ -72,7 +72,7 @@ Result<ColourImage> live_strip(const Options& options, const LiveResult& result,
                                SceneRenderer& renderer) {
     const SourceView* view = source_view_of(result, refresh);
     LW_CHECK(view != nullptr, "a refresh without a rendered frame has no strip");
-    const RenderedFrame frame = draw_again(*view, renderer);
+    const RenderedFrame frame = draw_again(*view, options.source.samples_per_axis, renderer);
     const double photon_s = seconds_of(refresh.photon);
     std::vector<ObjectTransform> movers;
     renderer.mover_placements(photon_s, movers);

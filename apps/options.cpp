@@ -107,6 +107,37 @@ void declare_method(Declarer& declare) {
     });
 }
 
+void declare_source(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--source-samples", "N", "NxN samples per pixel of the client's frame: 1, 2 or 4 (1)",
+                  [&options](const std::string& text) {
+                      check_name("number of samples", "--source-samples", text, {"1", "2", "4"});
+                      options.source.samples_per_axis = static_cast<int>(*parsed_number(text));
+                  });
+    declare.value("--source-density", "D", "pixels of the client's frame per pixel shown: 1, 1.5 or 2 (1)",
+                  [&options](const std::string& text) {
+                      check_name("density", "--source-density", text, {"1", "1.5", "2"});
+                      options.source.density = *parsed_number(text);
+                  });
+}
+
+void declare_guard_band(Declarer& declare, bool auto_allowed) {
+    Options& options = declare.options();
+    const auto degrees = [&options](const std::string& text) {
+        options.source.guard_band_rad = number_in("--guard-band", text, {0, 45}) * kRadPerDeg;
+    };
+    if (auto_allowed) {
+        declare.value("--guard-band", "auto|DEG",
+                      "view drawn around the client's frame, per side; auto: as the head turns (auto)",
+                      [&options, degrees](const std::string& text) {
+                          options.source.guard_band_rad.reset();
+                          if (text != "auto") degrees(text);
+                      });
+        return;
+    }
+    declare.value("--guard-band", "DEG", "view around the frame of --frame, per side (0)", degrees);
+}
+
 void declare_timing(Declarer& declare) {
     Options& options = declare.options();
     declare.value("--source-pose", "predicted|sampled", "head pose the client draws for (predicted)",
@@ -181,6 +212,8 @@ void declare_live(Declarer declare) {
     declare_scene(declare, false);
     declare_trace(declare, false);
     declare_camera(declare);
+    declare_source(declare);
+    declare_guard_band(declare, true);
     declare_method(declare);
     declare_timing(declare);
     declare_truth(declare);
@@ -193,6 +226,8 @@ void declare_replay(Declarer declare) {
     declare_scene(declare, false);
     declare_trace(declare, true);
     declare_camera(declare);
+    declare_source(declare);
+    declare_guard_band(declare, true);
     declare_method(declare);
     declare_baselines(declare);
     declare_timing(declare);
@@ -216,6 +251,8 @@ void declare_render(Declarer declare) {
     declare.number("--time", "S", {-1e6, 1e6}, options.scene_time_s, "scene time (0)");
     declare.path("--frame", "DIR", options.frame, "folder for the frame that the client would publish here");
     declare_camera(declare);
+    declare_source(declare);
+    declare_guard_band(declare, false);
     declare_truth(declare);
     declare_parameters(declare);
     declare_common(declare);
@@ -380,6 +417,8 @@ Result<CommandLine> parse(const std::vector<std::string>& arguments) {
     return command_line;
 }
 
+bool is_live(Subcommand subcommand) { return subcommand == Subcommand::demo || subcommand == Subcommand::measure; }
+
 /// Limits that concern two options at once.
 Status check_together(const Options& options) {
     const bool draws = options.subcommand == Subcommand::replay || options.subcommand == Subcommand::render;
@@ -389,6 +428,11 @@ Status check_together(const Options& options) {
             "too many samples for this size",
             fmt::format("--size {}x{} --truth-samples {}", options.size_px.x, options.size_px.y, options.truth_samples),
             fmt::format("keep the longer side times the samples below {}", 2 * kMaxSidePx)};
+    }
+    const glm::ivec2 source_px = SourceCameras{options.camera(), options.source}.largest().size_px;
+    if ((draws || is_live(options.subcommand)) && std::max(source_px.x, source_px.y) > 2 * kMaxSidePx) {
+        return Error{"too large a frame of the client", fmt::format("{}x{} pixels", source_px.x, source_px.y),
+                     "choose a smaller --size, --source-density or --guard-band"};
     }
     if (options.save_frames && options.out.empty() && options.subcommand == Subcommand::replay) {
         return Error{"no folder for the images", "--save-frames", "add --out DIR"};
@@ -408,6 +452,8 @@ Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments
     if (!command_line || command_line->text) return command_line;
     Options& options = command_line->options;
     if (options.method.empty()) options.method = default_method(options.subcommand);
+    // A single frame tells nothing of the head's motion, and plain `warp` of its folder is to show the plain view.
+    if (options.subcommand == Subcommand::render && !options.source.guard_band_rad) options.source.guard_band_rad = 0.0;
     seed_the_scene(options);
     const Status together = check_together(options);
     if (!together) return together.error();

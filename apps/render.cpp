@@ -12,13 +12,14 @@ namespace lw {
 
 namespace {
 
-/// What the client publishes at `camera`: one sample per pixel, movers at the same time.
-RenderedFrame client_frame(SceneRenderer& renderer, const Camera& camera, double scene_time_s) {
+/// What the client publishes for a display with `camera`, movers at the same time.
+RenderedFrame client_frame(SceneRenderer& renderer, const Camera& camera, double scene_time_s,
+                           const SourceSettings& source) {
     auto layer = std::make_shared<Layer>();
-    layer->camera = camera;
+    layer->camera = source_camera(camera, source.density, source.guard_band_rad.value_or(0.0));
     layer->scene_time_s = scene_time_s;
     layer->pose_sampled = at_seconds(scene_time_s);
-    renderer.draw(camera, scene_time_s, layer->cpu());
+    renderer.draw_resolved(layer->camera, scene_time_s, source.samples_per_axis, layer->cpu());
     renderer.mover_placements(scene_time_s, layer->movers);
     return {1, {std::move(layer)}, {}};
 }
@@ -36,7 +37,7 @@ Status run_render(const Options& options) {
     ColourImage truth;
     stage->renderer->draw_supersampled(camera, options.scene_time_s, options.truth_samples, truth);
     if (!options.frame.empty()) {
-        const RenderedFrame frame = client_frame(*stage->renderer, camera, options.scene_time_s);
+        const RenderedFrame frame = client_frame(*stage->renderer, camera, options.scene_time_s, options.source);
         const Status saved = save_frame_folder(frame, options.frame);
         if (!saved) return saved;
     }

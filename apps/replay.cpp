@@ -85,6 +85,7 @@ Result<ReplayResult> run_all(const Options& options, ReplayRun& run) {
     }
     result.costs = run.costs();
     result.bad_depth_pixels = run.bad_depth_count();
+    result.source_pixels_ratio = run.source_pixels_ratio();
     return result;
 }
 

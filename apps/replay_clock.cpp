@@ -13,6 +13,10 @@ TimePoint ReplayClock::middle_of_life(std::uint64_t frame) const {
     return published(frame) + app_period / 2 + timing_.lead + display_period / 2;
 }
 
+TimePoint ReplayClock::end_of_life(std::uint64_t frame) const {
+    return middle_of_life(frame) + from_seconds(0.5 / timing_.app_hz);
+}
+
 Refresh ReplayClock::refresh(std::uint64_t number) const {
     return {number, at_seconds(static_cast<double>(number) / timing_.display_hz),
             from_seconds(1.0 / timing_.display_hz)};

@@ -36,6 +36,9 @@ public:
     /// period later, and each latch is seen `lead` and half a refresh later. What the client predicts to.
     [[nodiscard]] TimePoint middle_of_life(std::uint64_t frame) const;
 
+    /// Photon time of the last refresh that may show the frame: middle_of_life() and half a client period.
+    [[nodiscard]] TimePoint end_of_life(std::uint64_t frame) const;
+
     [[nodiscard]] Refresh refresh(std::uint64_t number) const;
     [[nodiscard]] TimePoint latched(std::uint64_t number) const { return refresh(number).scanout_begin - timing_.lead; }
 

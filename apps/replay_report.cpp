@@ -106,6 +106,7 @@ void add_replay_results(Report& report, const ReplayResult& result) {
     report.set("frames", static_cast<std::uint64_t>(result.refreshes.size()));
     report.set("first_refresh", result.refreshes.front().refresh);
     report.set("pixels_per_degree", result.pixels_per_degree);
+    report.set("settings/source_pixels_ratio", result.source_pixels_ratio);
     const ErrorSummary summary = summary_of(result, 0);
     add_errors(report, "error", summary);
     report.set("equal_frames", summary.equal_frames);

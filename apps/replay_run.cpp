@@ -59,7 +59,8 @@ ReplayRun::ReplayRun(const Options& options, const ReplayTiming& timing, TraceFe
       clock_{timing},
       feed_{std::move(feed)},
       renderer_{stage.renderer.get()},
-      refresh_count_{static_cast<std::uint64_t>(std::max(1.0, std::round(options.seconds * options.display_hz)))} {}
+      refresh_count_{static_cast<std::uint64_t>(std::max(1.0, std::round(options.seconds * options.display_hz)))},
+      source_cameras_{options.camera(), options.source} {}
 
 Result<ReplayRun> ReplayRun::create(const Options& options, const Trace& trace, const SceneStage& stage) {
     // The run's clock starts at zero, and with it the trace and the tracker.
@@ -99,6 +100,20 @@ Status ReplayRun::make_methods() {
 
 double ReplayRun::pixels_per_degree() const { return lw::pixels_per_degree(options_.camera()); }
 
+double ReplayRun::source_pixels_ratio() const {
+    double sum = 0.0;
+    for (const Camera& view : source_views_) sum += pixels_ratio(view, options_.camera());
+    return source_views_.empty() ? 0.0 : sum / static_cast<double>(source_views_.size());
+}
+
+const Camera& ReplayRun::source_camera_of(std::uint64_t frame) {
+    for (std::uint64_t next = source_views_.size(); next <= frame; ++next) {
+        const TimePoint begin = clock_.sampled(next);
+        source_views_.push_back(source_cameras_.next(feed_, begin, clock_.end_of_life(next) - begin));
+    }
+    return source_views_[frame];
+}
+
 void ReplayRun::draw_client_frame(std::uint64_t frame) {
     const TimePoint begin = clock_.sampled(frame);
     const bool predicts = options_.source_pose == SourcePose::predicted;
@@ -106,11 +121,12 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     const PredictedPose pose = client_predictor_->predict(feed_, begin, drawn_for);
 
     auto layer = std::make_shared<Layer>();
-    layer->camera = camera_at(options_, pose.world_from_head);
+    layer->camera = source_camera_of(frame);
+    layer->camera.world_from_eye = pose.world_from_head;
     layer->pose_sampled = pose.newest_sample;
     layer->scene_time_s = seconds_of(drawn_for);
     const Stopwatch drawing;
-    renderer_->draw(layer->camera, layer->scene_time_s, layer->cpu());
+    renderer_->draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
     renderer_->mover_placements(layer->scene_time_s, layer->movers);
     costs_.app_ms.push_back(drawing.ms());
     for (std::size_t i = 0; i < warpers_.size(); ++i) {
@@ -126,9 +142,10 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
 
 void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s) {
     if (!warpers_[method]) {
-        // Without a setting for the source's samples, `fresh-same` is `fresh`.
-        if (!fresh_is_drawn_) renderer_->draw(true_camera, photon_s, fresh_pixels_);
-        fresh_is_drawn_ = true;
+        // `fresh-same` has the source's samples, neither its density nor its guard band: what it shows is the display's
+        // picture, drawn as well as the source was.
+        const int samples = labels_[method] == "fresh-same" ? options_.source.samples_per_axis : 1;
+        renderer_->draw_resolved(true_camera, photon_s, samples, fresh_pixels_);
         pictures_.shown[method] = fresh_pixels_.colour;
         pictures_.hole_fraction[method] = 0.0;
         return;
@@ -153,7 +170,6 @@ const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
     const Camera true_camera = camera_at(options_, feed_.pose_at(photon));
     renderer_->draw_supersampled(true_camera, photon_s, options_.truth_samples, pictures_.truth);
     renderer_->mover_placements(photon_s, movers_);
-    fresh_is_drawn_ = false;
     for (std::size_t i = 0; i < labels_.size(); ++i) {
         show(i, {camera_at(options_, pose.world_from_head), movers_}, true_camera, photon_s);
     }

@@ -12,6 +12,7 @@
 #include "apps/options.h"
 #include "apps/replay_clock.h"
 #include "apps/scene_stage.h"
+#include "client_renderer/source_camera.h"
 #include "core/result.h"
 #include "frame_link/prediction.h"
 #include "frame_link/trace.h"
@@ -67,12 +68,15 @@ public:
     [[nodiscard]] RefreshRecord judge() const;
 
     [[nodiscard]] const ReplayCosts& costs() const { return costs_; }
+    /// Pixels of the client's frames so far over those of the display, mean over the frames.
+    [[nodiscard]] double source_pixels_ratio() const;
     [[nodiscard]] std::uint64_t bad_depth_count() const { return bad_depth_count_; }
 
 private:
     ReplayRun(const Options& options, const ReplayTiming& timing, TraceFeed feed, const SceneStage& stage);
     Status make_methods();
     void draw_client_frame(std::uint64_t frame);
+    [[nodiscard]] const Camera& source_camera_of(std::uint64_t frame);
     void show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s);
 
     Options options_;
@@ -82,13 +86,14 @@ private:
     std::uint64_t refresh_count_ = 0;
     std::vector<std::string> labels_;
     std::vector<std::optional<FrameWarper>> warpers_;  ///< per label; nothing for `fresh`
+    SourceCameras source_cameras_;
+    std::vector<Camera> source_views_;  ///< of every client frame so far: each depends on those before it
     std::unique_ptr<HeadPosePredictor> client_predictor_;
     std::unique_ptr<HeadPosePredictor> server_predictor_;
 
     std::optional<std::uint64_t> drawn_frame_;  ///< number of the client frame that frame_ holds
     RenderedFrame frame_;
     CpuPixels fresh_pixels_;
-    bool fresh_is_drawn_ = false;
     RefreshPictures pictures_;
     RefreshRecord record_;
     std::vector<ObjectTransform> movers_;

@@ -117,6 +117,13 @@ void describe_settings(Report& report, const Options& options) {
     set("fill", options.fill);
     set("baselines", options.baselines);
     set("source_pose", options.source_pose == SourcePose::predicted ? "predicted" : "sampled");
+    set("source_samples", options.source.samples_per_axis);
+    set("source_density", options.source.density);
+    if (options.source.guard_band_rad) {
+        set("guard_band_deg", *options.source.guard_band_rad / kRadPerDeg);
+    } else {
+        set("guard_band_deg", "auto");
+    }
     set("app_hz", options.app_hz);
     set("display_hz", options.display_hz);
     if (options.predict) set("predict", *options.predict);

@@ -119,6 +119,75 @@ TEST_F(GlCommands, APredictorSeesLessThanTheOracle) {
               report_of(none).at("error").at("flip").at("mean").get<double>());
 }
 
+TEST_F(GlCommands, AGuardBandClosesTheEdgesOfATurn) {
+    const auto none = fresh_folder("replay-no-band");
+    const auto given = fresh_folder("replay-band");
+    const auto automatic = fresh_folder("replay-auto-band");
+    const Arguments turn = {"--trace", "look-around", "--trace-start", "1", "--method", "rotation"};
+    const auto with = [&turn](const char* band) {
+        Arguments arguments = turn;
+        arguments.insert(arguments.end(), {"--guard-band", band});
+        return arguments;
+    };
+    ASSERT_EQ(run_replay(none, with("0")).exit_code, 0);
+    ASSERT_EQ(run_replay(given, with("8")).exit_code, 0);
+    ASSERT_EQ(run_replay(automatic, with("auto")).exit_code, 0);
+    const auto holes = [](const Json& report) {
+        return report.at("error").at("hole_fraction").at("mean").get<double>();
+    };
+    const auto ratio = [](const Json& report) { return report.at("settings").at("source_pixels_ratio").get<double>(); };
+    EXPECT_EQ(ratio(report_of(none)), 1.0);
+    EXPECT_GT(ratio(report_of(given)), 1.5);
+    EXPECT_GT(ratio(report_of(automatic)), 1.0);
+    EXPECT_LE(ratio(report_of(automatic)), 2.0);
+    EXPECT_GT(holes(report_of(none)), 0.0) << "the head turns";
+    EXPECT_LT(holes(report_of(given)), 0.5 * holes(report_of(none)));
+    EXPECT_LT(holes(report_of(automatic)), 0.5 * holes(report_of(none)));
+    EXPECT_EQ(report_of(automatic).at("settings").at("guard_band_deg"), "auto");
+}
+
+TEST_F(GlCommands, StaleShowsTheMiddleOfAGuardBand) {
+    const auto folder = fresh_folder("replay-stale-band");
+    const Arguments more = {"--trace",  "still", "--param",    "movers=0", "--guard-band", "5",
+                            "--method", "stale", "--baseline", "rotation", "--baseline",   "splat"};
+    ASSERT_EQ(run_replay(folder, more).exit_code, 0);
+    const Json report = report_of(folder);
+    for (const char* method : {"rotation", "splat"}) {
+        // Without motion all copy the same pixels.
+        EXPECT_EQ(report.at("baselines").at(method).at("error"), report.at("error")) << method;
+    }
+    EXPECT_EQ(report.at("error").at("hole_fraction").at("max"), 0.0);
+}
+
+TEST_F(GlCommands, FreshSameHasTheSourcesSamples) {
+    const auto folder = fresh_folder("replay-samples");
+    const Arguments more = {"--source-samples", "2",     "--source-density", "1.5",
+                            "--baseline",       "fresh", "--baseline",       "fresh-same"};
+    ASSERT_EQ(run_replay(folder, more).exit_code, 0);
+    const Json report = report_of(folder);
+    const auto flip = [&report](const char* method) {
+        return report.at("baselines").at(method).at("error").at("flip").at("mean").get<double>();
+    };
+    EXPECT_LT(flip("fresh-same"), 0.9 * flip("fresh"));
+    EXPECT_EQ(report.at("settings").at("source_samples"), 2);
+    EXPECT_EQ(report.at("settings").at("source_density"), 1.5);
+}
+
+TEST_F(GlCommands, ARenderedFrameHasTheSourceThatWasAskedFor) {
+    const auto folder = fresh_folder("render-source");
+    const std::string frame = (folder / "frame").string();
+    const std::string truth = (folder / "truth.png").string();
+    const ProgramRun render =
+        run_latewarp(with_small_city("render", {"-o", truth, "--frame", frame, "--guard-band", "5", "--source-density",
+                                                "2", "--source-samples", "2"}));
+    ASSERT_EQ(render.exit_code, 0) << render.err;
+    EXPECT_EQ(read_png(folder / "truth.png")->size_px(), glm::ivec2(96, 96));
+    const auto source = read_png(folder / "frame" / "main.color.png");
+    ASSERT_TRUE(source);
+    // tan 50 degrees = 1.1918: 9.2 of 48 pixels more per side, so 10.
+    EXPECT_EQ(source->size_px(), glm::ivec2(2 * (96 + 20)));
+}
+
 TEST_F(GlCommands, ScenesBeyondWhatIsDrawnStillRender) {
     const auto folder = fresh_folder("render-away");
     const std::string png = (folder / "sky.png").string();

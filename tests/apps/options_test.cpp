@@ -28,6 +28,9 @@ TEST(Options, DefaultsAreThoseOfTheManual) {
     EXPECT_EQ(options.truth_samples, 2);
     EXPECT_EQ(options.seconds, 10.0);
     EXPECT_EQ(options.source_pose, SourcePose::predicted);
+    EXPECT_EQ(options.source.samples_per_axis, 1);
+    EXPECT_EQ(options.source.density, 1.0);
+    EXPECT_FALSE(options.source.guard_band_rad) << "auto";
     EXPECT_FALSE(options.app_hz);
     EXPECT_FALSE(options.predict);
     EXPECT_FALSE(options.pose);
@@ -55,6 +58,17 @@ TEST(Options, ReplayTakesEverything) {
     EXPECT_TRUE(options.save_frames);
     EXPECT_TRUE(options.quiet);
     EXPECT_EQ(options.threads, 2);
+}
+
+TEST(Options, TheSourceIsDescribed) {
+    const Options options =
+        parsed({"replay", "--trace", "walk", "--source-samples", "4", "--source-density", "1.5", "--guard-band", "5"});
+    EXPECT_EQ(options.source.samples_per_axis, 4);
+    EXPECT_EQ(options.source.density, 1.5);
+    ASSERT_TRUE(options.source.guard_band_rad);
+    EXPECT_NEAR(*options.source.guard_band_rad, 5.0 * kRadPerDeg, 1e-12);
+    EXPECT_FALSE(parsed({"demo", "--guard-band", "5", "--guard-band", "auto"}).source.guard_band_rad);
+    EXPECT_EQ(parsed({"render", "city", "-o", "x.png"}).source.guard_band_rad, 0.0) << "one frame tells no motion";
 }
 
 TEST(Options, TheLastOfARepeatedOptionHolds) {

@@ -121,7 +121,7 @@ void read_texture_coordinates(PrimitiveReader& reader, int uv_set, std::vector<V
 
 std::uint8_t byte_of(float value) {
     const float clamped = value > 0.0f ? std::min(value, 1.0f) : 0.0f;  // NaN becomes 0
-    return static_cast<std::uint8_t>(clamped * 255.0f + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(clamped * 255.0f));
 }
 
 void read_colours(PrimitiveReader& reader, std::vector<Vertex>& vertices) {

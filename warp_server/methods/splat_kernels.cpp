@@ -39,7 +39,8 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
     }
 }
 
-constexpr std::ptrdiff_t kPrefetchPixels = 96;  // six blocks of 16, about as long as a line takes to arrive
+// 1, 2 and 4 measured: 8.3, 7.7 and 8.0 ms for a picture turned by 10 degrees; 11.6 without.
+constexpr std::ptrdiff_t kPrefetchRows = 2;
 
 // What one row of points needs.
 struct RowContext {
@@ -196,9 +197,12 @@ HWY_INLINE void splat_lanes(D d, RowContext& row, int x, const PixelMatrix& m, M
     hn::Store(low, du, low_lanes);
     hn::Store(pixel, di, pixel_lanes);
     WinnerKey* keys = row.keys->pixels().data();
-    // The next blocks of this row most likely land behind this one's place; a wrong guess costs nothing.
-    __builtin_prefetch(keys + pixel_lanes[0] + kPrefetchPixels, 1);
-    __builtin_prefetch(keys + pixel_lanes[0] + kPrefetchPixels + 8, 1);
+    // Rows below this one land below this one's places: their lines can come while the rest of the row is worked on.
+    // Along the row itself the next places are no better known than by the processor. A wrong guess costs nothing.
+    const std::ptrdiff_t rows_below = kPrefetchRows * row.keys->width();
+    __builtin_prefetch(keys + pixel_lanes[0] + rows_below, 1);
+    __builtin_prefetch(keys + pixel_lanes[hn::Lanes(d) / 2] + rows_below, 1);
+    __builtin_prefetch(keys + pixel_lanes[hn::Lanes(d) - 1] + rows_below, 1);
     for (std::uint32_t bits = bits_of(d, single); bits != 0; bits &= bits - 1) {
         const auto lane = static_cast<unsigned>(__builtin_ctz(bits));
         const WinnerKey key = (WinnerKey{high_lanes[lane]} << 32U) | low_lanes[lane];

@@ -1,0 +1,146 @@
+/// Time of every CPU warp method and its preparation, beside a memcpy of the colour and depth they read.
+///
+/// Frames take turns, as they do live: neither the copy nor the warp finds its source in the cache. Each time is the
+/// median of its repeats, taken in turns with the copies of the same run; memcpy_ratio is the quotient of the medians.
+/// Methods are first checked: a still head must show the source.
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <functional>
+#include <string>
+
+#include "bench/warp_server/half_covered_layer.h"
+#include "core/check.h"
+#include "warp_server/fill.h"
+#include "warp_server/methods/registry.h"
+
+namespace lw::bench {
+namespace {
+
+constexpr glm::ivec2 kSize_px{1024, 1024};
+constexpr int kMovers = 1000;
+constexpr std::size_t kFrames = 4;
+
+// The same picture in different memory.
+const std::vector<Layer>& layers() {
+    static const std::vector<Layer> made = [] {
+        std::vector<Layer> all;
+        for (std::size_t i = 0; i < kFrames; ++i) all.push_back(half_covered_layer(kSize_px, kMovers));
+        return all;
+    }();
+    return made;
+}
+
+double milliseconds(const std::function<void()>& work) {
+    const auto begin = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+double quantile(std::vector<double> values, double part) {
+    const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), at, values.end());
+    return *at;
+}
+
+// Copies colour and depth of one frame.
+void copy_pixels(const CpuPixels& from, CpuPixels& to) {
+    std::memcpy(to.colour.pixels().data(), from.colour.pixels().data(), from.colour.size_bytes());
+    std::memcpy(to.depth.pixels().data(), from.depth.pixels().data(), from.depth.size_bytes());
+}
+
+// Runs `work(frame)` in turns with copies and reports both medians.
+void measure(benchmark::State& state, const std::function<void(std::size_t)>& work) {
+    std::vector<CpuPixels> copies(kFrames, CpuPixels{ColourImage{kSize_px}, DepthImage{kSize_px}, {}});
+    std::vector<double> work_ms;
+    std::vector<double> copy_ms;
+    std::size_t turn = 0;
+    for (std::size_t warm_up = 0; warm_up < kFrames; ++warm_up) work(warm_up);
+    for (auto _ : state) {
+        const std::size_t frame = turn++ % kFrames;
+        copy_ms.push_back(milliseconds([&] { copy_pixels(layers()[(frame + 2) % kFrames].cpu(), copies[frame]); }));
+        const double ms = milliseconds([&] { work(frame); });
+        work_ms.push_back(ms);
+        state.SetIterationTime(ms * 1e-3);
+        benchmark::ClobberMemory();
+    }
+    state.counters["median_ms"] = quantile(work_ms, 0.5);
+    state.counters["p99_ms"] = quantile(work_ms, 0.99);
+    state.counters["memcpy_ms"] = quantile(copy_ms, 0.5);
+    state.counters["memcpy_ratio"] = quantile(work_ms, 0.5) / quantile(copy_ms, 0.5);
+}
+
+std::unique_ptr<WarpMethod> checked_method(const std::string& specification) {
+    Result<std::unique_ptr<WarpMethod>> method = make_warp_method(specification);
+    LW_CHECK(method.ok(), method.ok() ? std::string{} : method.error().message());
+    DisplayFrame frame;
+    const Layer& layer = layers().front();
+    (*method)->warp(layer, {layer.camera, layer.movers}, frame);
+    LW_CHECK(frame.colour == layer.cpu().colour, specification + " does not show the source to a still head");
+    return std::move(*method);
+}
+
+void warp(benchmark::State& state, const std::string& specification) {
+    const auto method = checked_method(specification);
+    std::vector<Layer> prepared;
+    for (std::size_t i = 0; i < kFrames; ++i) {
+        prepared.push_back(half_covered_layer(kSize_px, kMovers));
+        if (auto ready = method->prepare(prepared[i]))
+            prepared[i].prepared.emplace_back(specification, std::move(ready));
+    }
+    const Camera camera = moved_head(prepared[0].camera);
+    const std::vector<ObjectTransform> movers = moved_objects(prepared[0]);
+    DisplayFrame frames[2];
+    measure(state, [&](std::size_t i) { method->warp(prepared[i], {camera, movers}, frames[i % 2]); });
+    state.counters["hole_fraction"] = hole_fraction(frames[0]);
+}
+
+void prepare(benchmark::State& state, const std::string& specification) {
+    const auto method = checked_method(specification);
+    measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(method->prepare(layers()[i])); });
+}
+
+void fill(benchmark::State& state, const std::string& name) {
+    const auto method = checked_method("splat");
+    const Camera camera = moved_head(layers()[0].camera);
+    std::vector<DisplayFrame> frames(kFrames);
+    for (DisplayFrame& frame : frames) method->warp(layers()[0], {camera, moved_objects(layers()[0])}, frame);
+    Result<std::unique_ptr<Fill>> made = make_fill(name);
+    LW_CHECK(made.ok(), name);
+    // A filled frame has no holes left, so each repeat starts from the coverage of the warped one.
+    const Image<Coverage> coverage = frames[0].coverage;
+    measure(state, [&](std::size_t i) {
+        std::memcpy(frames[i].coverage.pixels().data(), coverage.pixels().data(), coverage.size_bytes());
+        (*made)->apply(frames[i]);
+    });
+}
+
+void register_all() {
+    const auto add = [](const std::string& name, const std::function<void(benchmark::State&)>& run) {
+        benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Iterations(41)->Unit(benchmark::kMillisecond);
+    };
+    for (const MethodEntry& entry : warp_methods()) {
+        if (entry.needs_gl || entry.name == "reference") continue;
+        const std::string name{entry.name};
+        add("warp/" + name, [name](benchmark::State& state) { warp(state, name); });
+        if (entry.settings.find("threads") == std::string_view::npos) continue;
+        add("warp/" + name + ":threads=2", [name](benchmark::State& state) { warp(state, name + ":threads=2"); });
+    }
+    add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });
+    add("fill/nearest-background", [](benchmark::State& state) { fill(state, "nearest-background"); });
+}
+
+}  // namespace
+}  // namespace lw::bench
+
+int main(int argc, char** argv) {
+    lw::bench::register_all();
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return 0;
+}

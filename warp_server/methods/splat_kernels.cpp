@@ -307,6 +307,18 @@ HWY_INLINE void resolve_background(const CpuPixels& pixels, float place_x, float
     out.coverage.pixels()[i] = Coverage::reached;
 }
 
+// What the rows below will read around a place; saves a tenth where the picture turns.
+HWY_INLINE void prefetch_source(const CpuPixels& pixels, float place_x, float place_y) {
+    const float row = place_y + static_cast<float>(kPrefetchRows);
+    const bool inside = place_x >= 0.0F && row >= 0.0F && place_x < static_cast<float>(pixels.depth.width()) &&
+                        row < static_cast<float>(pixels.depth.height());
+    if (!inside) return;
+    const int index = static_cast<int>(row) * pixels.depth.width() + static_cast<int>(place_x);
+    __builtin_prefetch(pixels.depth.pixels().data() + index);
+    __builtin_prefetch(pixels.object_id.pixels().data() + index);
+    __builtin_prefetch(pixels.colour.pixels().data() + index);
+}
+
 template <class D>
 HWY_INLINE void resolve_block(D d, const CpuPixels& pixels, const glm::mat3& h, int x, int y, WinnerKey* keys,
                               DisplayFrame& out) {
@@ -346,6 +358,8 @@ HWY_INLINE void resolve_block(D d, const CpuPixels& pixels, const glm::mat3& h, 
     hn::Store(hn::Div(row_term(0), w), d, place_x);
     hn::Store(hn::Div(row_term(1), w), d, place_y);
     hn::Store(w, d, place_w);
+    prefetch_source(pixels, place_x[0], place_y[0]);
+    prefetch_source(pixels, place_x[hn::Lanes(d) - 1], place_y[hn::Lanes(d) - 1]);
     for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
         if (out.coverage.pixels()[i + lane] == Coverage::reached) continue;
         resolve_background(pixels, place_x[lane], place_y[lane], place_w[lane], i + lane, out);

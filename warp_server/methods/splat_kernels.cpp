@@ -126,10 +126,14 @@ HWY_INLINE void splat_lanes(D d, RowContext& row, int x, const PixelMatrix& m, M
     const Vec<D> target_y = hn::Mul(row_term(m.one.y, m.y.y, m.x.y, m.z.y), inverse_w);
     const Vec<D> target_depth = hn::Mul(hn::Mul(depth, hn::Set(d, m.depth_scale)), inverse_w);
 
-    const Vec<D> reach = hn::Set(d, kOutOfReachPx);
+    // Points whose largest extent ends outside of the picture need no more work.
+    const auto can_touch = [&](Vec<D> place, int size) {
+        return hn::And(hn::Gt(place, hn::Set(d, -kLargestHalfExtentPx)),
+                       hn::Lt(place, hn::Set(d, static_cast<float>(size) + kLargestHalfExtentPx)));
+    };
     auto valid = hn::And(wanted, hn::Gt(w, hn::Zero(d)));
     valid = hn::And(valid, hn::Le(target_depth, hn::Set(d, 1.0F)));
-    valid = hn::And(valid, hn::And(hn::Lt(hn::Abs(target_x), reach), hn::Lt(hn::Abs(target_y), reach)));
+    valid = hn::And(valid, hn::And(can_touch(target_x, row.keys->width()), can_touch(target_y, row.keys->height())));
     if (hn::AllFalse(d, valid)) return;
 
     // Depth gradient of the own surface. Reading one pixel beyond a row's end meets the next row, which the masks
@@ -291,32 +295,25 @@ RowRange splat_points_here(const SplatInput& input, RowRange source_rows, Image<
     return {std::min(row.written_begin, row.written_end), row.written_end};
 }
 
-// Shows the source's background at one target pixel if the place lies on it.
-HWY_INLINE void resolve_background(const CpuPixels& pixels, float place_x, float place_y, float place_w, std::size_t i,
-                                   DisplayFrame& out) {
+// Shows source pixel `from` at target pixel `to` if it is background.
+HWY_INLINE void show_background(const CpuPixels& pixels, std::size_t from, std::size_t to, DisplayFrame& out) {
+    if (pixels.depth.pixels()[from] != 0.0F || pixels.object_id.pixels()[from] != 0) return;
+    Rgba8 colour = pixels.colour.pixels()[from];
+    colour.a = 255;
+    out.colour.pixels()[to] = colour;
+    out.coverage.pixels()[to] = Coverage::reached;
+}
+
+// The same for the place in the source where a target pixel's background lies.
+void resolve_background(const CpuPixels& pixels, float place_x, float place_y, float place_w, std::size_t to,
+                        DisplayFrame& out) {
     const bool inside = place_w > 0.0F && place_x >= 0.0F && place_y >= 0.0F &&
                         place_x < static_cast<float>(pixels.depth.width()) &&
                         place_y < static_cast<float>(pixels.depth.height());
     if (!inside) return;
-    const int x = static_cast<int>(place_x);
-    const int y = static_cast<int>(place_y);
-    if (pixels.depth.at(x, y) != 0.0F || pixels.object_id.at(x, y) != 0) return;
-    Rgba8 colour = pixels.colour.at(x, y);
-    colour.a = 255;
-    out.colour.pixels()[i] = colour;
-    out.coverage.pixels()[i] = Coverage::reached;
-}
-
-// What the rows below will read around a place; saves a tenth where the picture turns.
-HWY_INLINE void prefetch_source(const CpuPixels& pixels, float place_x, float place_y) {
-    const float row = place_y + static_cast<float>(kPrefetchRows);
-    const bool inside = place_x >= 0.0F && row >= 0.0F && place_x < static_cast<float>(pixels.depth.width()) &&
-                        row < static_cast<float>(pixels.depth.height());
-    if (!inside) return;
-    const int index = static_cast<int>(row) * pixels.depth.width() + static_cast<int>(place_x);
-    __builtin_prefetch(pixels.depth.pixels().data() + index);
-    __builtin_prefetch(pixels.object_id.pixels().data() + index);
-    __builtin_prefetch(pixels.colour.pixels().data() + index);
+    const std::size_t from = static_cast<std::size_t>(place_y) * static_cast<std::size_t>(pixels.depth.width()) +
+                             static_cast<std::size_t>(place_x);
+    show_background(pixels, from, to, out);
 }
 
 template <class D>
@@ -352,17 +349,40 @@ HWY_INLINE void resolve_block(D d, const CpuPixels& pixels, const glm::mat3& h, 
                        hn::Mul(x_px, hn::Set(d, h[0][component])));
     };
     const Vec<D> w = row_term(2);
-    HWY_ALIGN float place_x[kMaxLanes];
-    HWY_ALIGN float place_y[kMaxLanes];
-    HWY_ALIGN float place_w[kMaxLanes];
-    hn::Store(hn::Div(row_term(0), w), d, place_x);
-    hn::Store(hn::Div(row_term(1), w), d, place_y);
-    hn::Store(w, d, place_w);
-    prefetch_source(pixels, place_x[0], place_y[0]);
-    prefetch_source(pixels, place_x[hn::Lanes(d) - 1], place_y[hn::Lanes(d) - 1]);
-    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane) {
-        if (out.coverage.pixels()[i + lane] == Coverage::reached) continue;
-        resolve_background(pixels, place_x[lane], place_y[lane], place_w[lane], i + lane, out);
+    const Vec<D> place_x = hn::Div(row_term(0), w);
+    const Vec<D> place_y = hn::Div(row_term(1), w);
+    const auto width = hn::Set(d, static_cast<float>(pixels.depth.width()));
+    const auto height = hn::Set(d, static_cast<float>(pixels.depth.height()));
+    auto inside = hn::And(hn::Gt(w, hn::Zero(d)), hn::And(hn::Ge(place_x, hn::Zero(d)), hn::Ge(place_y, hn::Zero(d))));
+    inside = hn::And(inside, hn::And(hn::Lt(place_x, width), hn::Lt(place_y, height)));
+    const auto wanted = hn::AndNot(hn::RebindMask(d, reached), inside);
+    if (hn::AllFalse(d, wanted)) return;
+    const auto index =
+        hn::Add(hn::Mul(hn::ConvertTo(di, hn::IfThenElseZero(inside, place_y)), hn::Set(di, pixels.depth.width())),
+                hn::ConvertTo(di, hn::IfThenElseZero(inside, place_x)));
+    HWY_ALIGN std::int32_t from[kMaxLanes];
+    hn::Store(index, di, from);
+    const auto in_a_row = hn::Eq(index, hn::Iota(di, from[0]));
+    if (hn::AllTrue(di, hn::And(in_a_row, hn::RebindMask(di, inside)))) {
+        // Most blocks of a slowly turning picture show pixels that are neighbours in the source, too.
+        const std::size_t first = static_cast<std::size_t>(from[0]);
+        const auto depth = hn::LoadU(d, pixels.depth.pixels().data() + first);
+        const auto ids = load_ids(d, pixels.object_id.pixels().data() + first);
+        const auto background = hn::And(hn::Eq(depth, hn::Zero(d)), hn::RebindMask(d, hn::Eq(ids, hn::Zero(du))));
+        const auto shown = hn::And(wanted, background);
+        const auto source =
+            hn::Or(hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(pixels.colour.pixels().data() + first)),
+                   hn::Set(du, 0xFF000000U));
+        const auto both = hn::IfThenElse(hn::RebindMask(du, shown), source, colour);
+        hn::StoreU(both, du, reinterpret_cast<std::uint32_t*>(out.colour.pixels().data() + i));
+        const auto all_reached = hn::Or(hn::RebindMask(di, shown), hn::RebindMask(di, reached));
+        hn::StoreU(hn::DemoteTo(d8, hn::IfThenElseZero(all_reached, hn::Set(di, 1))), d8,
+                   reinterpret_cast<std::uint8_t*>(out.coverage.pixels().data() + i));
+        return;
+    }
+    for (std::uint32_t bits = bits_of(d, wanted); bits != 0; bits &= bits - 1) {
+        const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+        show_background(pixels, static_cast<std::size_t>(from[lane]), i + lane, out);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <type_traits>
 
 #include "warp_server/methods/linear_colour.h"
 
@@ -23,6 +24,7 @@ constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no image
 // Target pixels per source pixel, in area, below which a plane counts as seen edge-on; negative: from its back.
 constexpr float kSmallestArea = 1e-4F;
 constexpr int kPrefetchRows = 3;  // blocks are narrow, so that the next rows come before the next lines of this one
+constexpr int kSmallBoxPx = 3;    // a cell's box is one to three pixels wide unless it is magnified
 constexpr float kSmallestCoverage = 1.0F / 512.0F;  // less changes no 8-bit colour
 
 // Patches laid out for one target: the inverse of each one's homography, relative to where its origin lands. With e the
@@ -133,11 +135,108 @@ private:
             const PixelMatrix* matrix = input_.matrices->find(id);
             if (matrix == nullptr) continue;
             PlacedPatches placed;
-            for (std::uint32_t bits = place(d, first, *matrix, group, placed); bits != 0; bits &= bits - 1) {
+            std::uint32_t bits = place(d, first, *matrix, group, placed);
+            if (bits == 0) continue;
+            if constexpr (std::is_same_v<D, DF>) {
+                const std::uint32_t small = small_boxes(bits, placed);
+                if (small != 0) paint_small(first, small, placed);
+                bits &= ~small;
+            }
+            for (; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
                 paint_one(first + lane, lane, placed);
             }
         }
+    }
+
+    // Those of the patches whose boxes hold so few pixels that solving one pixel of many patches at once is faster than
+    // solving many pixels of one patch.
+    HWY_INLINE std::uint32_t small_boxes(std::uint32_t bits, const PlacedPatches& placed) const {
+        const auto size = [](const std::int32_t* begin, const std::int32_t* end) {
+            return hn::Sub(hn::Load(DI{}, end), hn::Load(DI{}, begin));
+        };
+        const auto limit = hn::Set(DI{}, kSmallBoxPx + 1);
+        const auto small = hn::And(hn::Lt(size(placed.x_begin, placed.x_end), limit),
+                                   hn::Lt(size(placed.y_begin, placed.y_end), limit));
+        return bits & bits_of(DI{}, small);
+    }
+
+    // One pixel of every patch at a time, column by column and row by row of their boxes.
+    HWY_INLINE void paint_small(std::size_t first, std::uint32_t bits, const PlacedPatches& placed) {
+        const auto load = [&](const std::vector<float>& values) { return hn::LoadU(DF{}, values.data() + first); };
+        const auto placed_values = [](const float* values) { return hn::Load(DF{}, values); };
+        HWY_ALIGN std::int32_t wanted_lanes[kMaxLanes];
+        for (std::size_t lane = 0; lane < kMaxLanes; ++lane)
+            wanted_lanes[lane] = static_cast<std::int32_t>(bits >> lane & 1U);
+        const auto wanted = hn::Gt(hn::Load(DI{}, wanted_lanes), hn::Zero(DI{}));
+        const auto x_end = hn::Load(DI{}, placed.x_end);
+        const auto y_end = hn::Load(DI{}, placed.y_end);
+        Patch patch;
+        patch.target_x = placed_values(placed.target_x);
+        patch.target_y = placed_values(placed.target_y);
+        patch.w = placed_values(placed.w);
+        patch.w_x = placed_values(placed.w_x);
+        patch.w_y = placed_values(placed.w_y);
+        patch.inverse_xx = placed_values(placed.inverse_xx);
+        patch.inverse_xy = placed_values(placed.inverse_xy);
+        patch.inverse_yx = placed_values(placed.inverse_yx);
+        patch.inverse_yy = placed_values(placed.inverse_yy);
+        patch.depth_factor = placed_values(placed.depth_factor);
+        patch.depth = load(list_.depth);
+        patch.gradient_x = load(list_.gradient_x);
+        patch.gradient_y = load(list_.gradient_y);
+        patch.left = load(list_.left);
+        patch.right = load(list_.right);
+        patch.top = load(list_.top);
+        patch.bottom = load(list_.bottom);
+        const bool is_whole = list_.corners[first] == kAllCorners;  // as all of the list are, or none
+        for (int dy = 0; dy < kSmallBoxPx; ++dy) {
+            const auto y = hn::Add(hn::Load(DI{}, placed.y_begin), hn::Set(DI{}, dy));
+            const auto wanted_rows = hn::And(wanted, hn::Lt(y, y_end));
+            if (hn::AllFalse(DI{}, wanted_rows)) return;
+            const VF pixel_y = hn::ConvertTo(DF{}, y);
+            for (int dx = 0; dx < kSmallBoxPx; ++dx) {
+                const auto x = hn::Add(hn::Load(DI{}, placed.x_begin), hn::Set(DI{}, dx));
+                const auto used = hn::And(wanted_rows, hn::Lt(x, x_end));
+                if (hn::AllFalse(DI{}, used)) break;
+                const VF pixel_x = hn::ConvertTo(DF{}, x);
+                Solved solved;
+                const auto inside = hn::And(hn::RebindMask(DF{}, used), solve(patch, pixel_x, pixel_y, solved));
+                if (hn::AllFalse(DF{}, inside)) continue;
+                if (is_whole) {
+                    paint_scattered(load(list_.x), load(list_.y), solved, pixel_x, pixel_y, inside);
+                } else {
+                    paint_fragments(first, 1, solved, pixel_x, pixel_y, inside);
+                }
+            }
+        }
+    }
+
+    // A patch and its homography, one or many.
+    struct Patch {
+        VF target_x, target_y, w, w_x, w_y, inverse_xx, inverse_xy, inverse_yx, inverse_yy, depth_factor;
+        VF depth, gradient_x, gradient_y, left, right, top, bottom;
+    };
+
+    // Lays target pixels back onto the patch; true where they are inside of it.
+    static HWY_INLINE hn::Mask<DF> solve(const Patch& patch, VF pixel_x, VF pixel_y, Solved& solved) {
+        const VF half_px = hn::Set(DF{}, 0.5F);
+        const VF one = hn::Set(DF{}, 1.0F);
+        const VF ex = hn::Sub(hn::Add(pixel_x, half_px), patch.target_x);
+        const VF ey = hn::Sub(hn::Add(pixel_y, half_px), patch.target_y);
+        const VF kx = hn::Add(hn::Mul(patch.inverse_xx, ex), hn::Mul(patch.inverse_xy, ey));
+        const VF ky = hn::Add(hn::Mul(patch.inverse_yx, ex), hn::Mul(patch.inverse_yy, ey));
+        const VF share = hn::Sub(hn::Sub(one, hn::Mul(patch.w_x, kx)), hn::Mul(patch.w_y, ky));
+        const VF place_w = hn::Div(patch.w, share);
+        solved.dx = hn::Mul(place_w, kx);
+        solved.dy = hn::Mul(place_w, ky);
+        const VF source_depth =
+            hn::Add(hn::Add(patch.depth, hn::Mul(patch.gradient_x, solved.dx)), hn::Mul(patch.gradient_y, solved.dy));
+        solved.depth = hn::Max(hn::Mul(hn::Mul(patch.depth_factor, share), source_depth), hn::Zero(DF{}));
+        const auto in_columns = hn::And(hn::Ge(solved.dx, patch.left), hn::Le(solved.dx, patch.right));
+        const auto in_rows = hn::And(hn::Ge(solved.dy, patch.top), hn::Le(solved.dy, patch.bottom));
+        const auto in_front = hn::And(hn::Gt(share, hn::Zero(DF{})), hn::Le(solved.depth, one));
+        return hn::And(hn::And(in_columns, in_rows), in_front);
     }
 
     // Which of the patches have pixels in the band.
@@ -236,25 +335,29 @@ private:
     }
 
     // Solves every pixel of the patch's box, as many at once as there are lanes, and paints those inside of it.
-    HWY_INLINE void paint_one(std::size_t patch, std::size_t lane, const PlacedPatches& placed) {
+    HWY_INLINE void paint_one(std::size_t index, std::size_t lane, const PlacedPatches& placed) {
         const auto set = [](float value) { return hn::Set(DF{}, value); };
-        const VF w = set(placed.w[lane]);
-        const VF w_x = set(placed.w_x[lane]);
-        const VF w_y = set(placed.w_y[lane]);
-        const VF inverse_xx = set(placed.inverse_xx[lane]);
-        const VF inverse_xy = set(placed.inverse_xy[lane]);
-        const VF inverse_yx = set(placed.inverse_yx[lane]);
-        const VF inverse_yy = set(placed.inverse_yy[lane]);
-        const VF depth = set(list_.depth[patch]);
-        const VF gradient_x = set(list_.gradient_x[patch]);
-        const VF gradient_y = set(list_.gradient_y[patch]);
-        const VF depth_factor = set(placed.depth_factor[lane]);
-        const VF left = set(list_.left[patch]);
-        const VF right = set(list_.right[patch]);
-        const VF top = set(list_.top[patch]);
-        const VF bottom = set(list_.bottom[patch]);
-        const VF one = set(1.0F);
-        const bool is_whole = list_.corners[patch] == kAllCorners;
+        Patch patch;
+        patch.target_x = set(placed.target_x[lane]);
+        patch.target_y = set(placed.target_y[lane]);
+        patch.w = set(placed.w[lane]);
+        patch.w_x = set(placed.w_x[lane]);
+        patch.w_y = set(placed.w_y[lane]);
+        patch.inverse_xx = set(placed.inverse_xx[lane]);
+        patch.inverse_xy = set(placed.inverse_xy[lane]);
+        patch.inverse_yx = set(placed.inverse_yx[lane]);
+        patch.inverse_yy = set(placed.inverse_yy[lane]);
+        patch.depth_factor = set(placed.depth_factor[lane]);
+        patch.depth = set(list_.depth[index]);
+        patch.gradient_x = set(list_.gradient_x[index]);
+        patch.gradient_y = set(list_.gradient_y[index]);
+        patch.left = set(list_.left[index]);
+        patch.right = set(list_.right[index]);
+        patch.top = set(list_.top[index]);
+        patch.bottom = set(list_.bottom[index]);
+        const VF origin_x = set(list_.x[index]);
+        const VF origin_y = set(list_.y[index]);
+        const bool is_whole = list_.corners[index] == kAllCorners;
 
         const int lanes = static_cast<int>(hn::Lanes(DF{}));
         const int columns = std::min(placed.x_end[lane] - placed.x_begin[lane], lanes);
@@ -266,34 +369,19 @@ private:
         const auto used = hn::Lt(lane_y, set(static_cast<float>(rows)));
         for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
             const VF pixel_y = hn::Add(lane_y, set(static_cast<float>(y)));
-            const VF ey = hn::Sub(hn::Add(pixel_y, set(0.5F)), set(placed.target_y[lane]));
-            const VF kx_of_row = hn::Mul(inverse_xy, ey);
-            const VF ky_of_row = hn::Mul(inverse_yy, ey);
             const auto used_rows = hn::And(used, hn::Lt(pixel_y, row_limit));
             for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
                 const VF pixel_x = hn::Add(lane_x, set(static_cast<float>(x)));
-                const VF ex = hn::Sub(hn::Add(pixel_x, set(0.5F)), set(placed.target_x[lane]));
-                const VF kx = hn::Add(hn::Mul(inverse_xx, ex), kx_of_row);
-                const VF ky = hn::Add(hn::Mul(inverse_yx, ex), ky_of_row);
-                const VF share = hn::Sub(hn::Sub(one, hn::Mul(w_x, kx)), hn::Mul(w_y, ky));
-                const VF place_w = hn::Div(w, share);
                 Solved solved;
-                solved.dx = hn::Mul(place_w, kx);
-                solved.dy = hn::Mul(place_w, ky);
-                const VF source_depth =
-                    hn::Add(hn::Add(depth, hn::Mul(gradient_x, solved.dx)), hn::Mul(gradient_y, solved.dy));
-                solved.depth = hn::Max(hn::Mul(hn::Mul(depth_factor, share), source_depth), hn::Zero(DF{}));
-                auto inside = hn::And(hn::Ge(solved.dx, left), hn::Le(solved.dx, right));
-                inside = hn::And(inside, hn::And(hn::Ge(solved.dy, top), hn::Le(solved.dy, bottom)));
-                inside = hn::And(inside, hn::And(hn::Gt(share, hn::Zero(DF{})), hn::Le(solved.depth, one)));
+                auto inside = solve(patch, pixel_x, pixel_y, solved);
                 inside = hn::And(inside, hn::And(used_rows, hn::Lt(pixel_x, column_limit)));
                 if (hn::AllFalse(DF{}, inside)) continue;
                 if (!is_whole) {
-                    paint_fragments(patch, solved, pixel_x, pixel_y, inside);
+                    paint_fragments(index, 0, solved, pixel_x, pixel_y, inside);
                 } else if (rows == 1 && x + lanes <= target_width_) {
-                    paint_run(patch, solved, x, y, inside);
+                    paint_run(origin_x, origin_y, solved, x, y, inside);
                 } else {
-                    paint_scattered(patch, solved, pixel_x, pixel_y, inside);
+                    paint_scattered(origin_x, origin_y, solved, pixel_x, pixel_y, inside);
                 }
             }
         }
@@ -301,7 +389,7 @@ private:
 
     // Opaque pixels in one row from column x on.
     template <class M>
-    HWY_INLINE void paint_run(std::size_t patch, const Solved& solved, int x, int y, M inside) {
+    HWY_INLINE void paint_run(VF origin_x, VF origin_y, const Solved& solved, int x, int y, M inside) {
         const std::size_t index =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(target_width_) + static_cast<std::size_t>(x);
         __builtin_prefetch(depths_ + index + kPrefetchRows * target_width_, 1);
@@ -310,7 +398,7 @@ private:
         const auto nearer = hn::And(inside, hn::Lt(shown, solved.depth));
         if (hn::AllFalse(DF{}, nearer)) return;
         auto* colours = reinterpret_cast<std::uint32_t*>(colours_ + index);
-        const Taps taps = taps_of(patch, solved, nearer);
+        const Taps taps = taps_of(origin_x, origin_y, solved, nearer);
         const auto colour = encoded(read_bilinear(taps.index, taps.fx, taps.fy));
         hn::BlendedStore(solved.depth, nearer, DF{}, depths_ + index);
         hn::BlendedStore(colour, hn::RebindMask(DU{}, nearer), DU{}, colours);
@@ -318,13 +406,13 @@ private:
 
     // Opaque pixels anywhere, each once.
     template <class M>
-    HWY_INLINE void paint_scattered(std::size_t patch, const Solved& solved, VF pixel_x, VF pixel_y, M inside) {
+    HWY_INLINE void paint_scattered(VF origin_x, VF origin_y, const Solved& solved, VF pixel_x, VF pixel_y, M inside) {
         HWY_ALIGN std::int32_t indices[kMaxLanes];
         HWY_ALIGN float depths[kMaxLanes];
         HWY_ALIGN std::int32_t tap[kMaxLanes];
         HWY_ALIGN std::int32_t fx[kMaxLanes];
         HWY_ALIGN std::int32_t fy[kMaxLanes];
-        const Taps taps = taps_of(patch, solved, inside);
+        const Taps taps = taps_of(origin_x, origin_y, solved, inside);
         hn::Store(indices_of(pixel_x, pixel_y), DI{}, indices);
         hn::Store(solved.depth, DF{}, depths);
         hn::Store(taps.index, DI{}, tap);
@@ -355,17 +443,17 @@ private:
 
     // Of the lanes `wanted`; the others' read somewhere in the image.
     template <class M>
-    HWY_INLINE Taps taps_of(std::size_t patch, const Solved& solved, M wanted) const {
-        const auto within = [&](float origin, VF offset, int size) {
-            const VF place = hn::Add(hn::Set(DF{}, origin), hn::IfThenElseZero(wanted, offset));
+    HWY_INLINE Taps taps_of(VF origin_x, VF origin_y, const Solved& solved, M wanted) const {
+        const auto within = [&](VF origin, VF offset, int size) {
+            const VF place = hn::Add(origin, hn::IfThenElseZero(wanted, offset));
             return hn::Min(hn::Max(place, hn::Zero(DF{})), hn::Set(DF{}, static_cast<float>(size - 1)));
         };
         const auto fraction = [&](VF place, hn::VFromD<DI> first) {
             const VF part = hn::Sub(place, hn::ConvertTo(DF{}, first));
             return hn::ConvertTo(DI{}, hn::Min(hn::Mul(part, hn::Set(DF{}, 32768.0F)), hn::Set(DF{}, 32767.0F)));
         };
-        const VF x = within(list_.x[patch], solved.dx, source_size_px_.x);
-        const VF y = within(list_.y[patch], solved.dy, source_size_px_.y);
+        const VF x = within(origin_x, solved.dx, source_size_px_.x);
+        const VF y = within(origin_y, solved.dy, source_size_px_.y);
         const auto x0 = hn::ConvertTo(DI{}, x);
         const auto y0 = hn::ConvertTo(DI{}, y);
         return {hn::Add(hn::Mul(y0, hn::Set(DI{}, source_size_px_.x)), x0), fraction(x, x0), fraction(y, y0)};
@@ -507,46 +595,50 @@ private:
 #endif
     }
 
-    // One corner group of an edge cell: weighs its corners alone, and covers as much as they weigh.
+    // Corner groups of edge cells: each weighs its corners alone, and covers as much as they weigh. Lane k shows patch
+    // `first + k * stride`.
     template <class M>
-    HWY_NOINLINE void paint_fragments(std::size_t patch, const Solved& solved, VF pixel_x, VF pixel_y, M inside) {
+    HWY_INLINE void paint_fragments(std::size_t first, std::size_t stride, const Solved& solved, VF pixel_x, VF pixel_y,
+                                    M inside) {
         HWY_ALIGN std::int32_t indices[kMaxLanes];
         HWY_ALIGN float depths[kMaxLanes];
-        HWY_ALIGN float dx[kMaxLanes];
-        HWY_ALIGN float dy[kMaxLanes];
+        HWY_ALIGN float u[kMaxLanes];
+        HWY_ALIGN float v[kMaxLanes];
+        const auto in_cell = [](VF place) { return hn::Min(hn::Max(place, hn::Zero(DF{})), hn::Set(DF{}, 1.0F)); };
         hn::Store(indices_of(pixel_x, pixel_y), DI{}, indices);
         hn::Store(solved.depth, DF{}, depths);
-        hn::Store(solved.dx, DF{}, dx);
-        hn::Store(solved.dy, DF{}, dy);
+        hn::Store(in_cell(solved.dx), DF{}, u);
+        hn::Store(in_cell(solved.dy), DF{}, v);
+        for (std::uint32_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+            if (depths_[indices[lane]] >= depths[lane]) continue;
+            paint_fragment(first + lane * stride, static_cast<std::size_t>(indices[lane]), depths[lane], u[lane],
+                           v[lane]);
+        }
+    }
+
+    HWY_INLINE void paint_fragment(std::size_t patch, std::size_t index, float depth, float u, float v) {
         const int x = static_cast<int>(list_.x[patch]);
         const int y = static_cast<int>(list_.y[patch]);
-        const std::uint8_t corners = list_.corners[patch];
         const std::size_t right = x + 1 < source_size_px_.x ? 1 : 0;
         const std::size_t down = y + 1 < source_size_px_.y ? static_cast<std::size_t>(source_size_px_.x) : 0;
         const std::uint64_t* first = linear_ +
                                      static_cast<std::size_t>(y) * static_cast<std::size_t>(source_size_px_.x) +
                                      static_cast<std::size_t>(x);
         const std::uint64_t words[4] = {first[0], first[right], first[down], first[right + down]};
-        for (std::uint32_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
-            if (depths_[indices[lane]] >= depths[lane]) continue;
-            const float u = std::clamp(dx[lane], 0.0F, 1.0F);
-            const float v = std::clamp(dy[lane], 0.0F, 1.0F);
-            const float weights[4] = {(1.0F - u) * (1.0F - v), u * (1.0F - v), (1.0F - u) * v, u * v};
-            glm::vec3 linear{0.0F};
-            float coverage = 0.0F;
-            for (unsigned corner = 0; corner < 4; ++corner) {
-                if ((corners >> corner & 1U) == 0) continue;
-                const std::uint64_t word = words[corner];
-                coverage += weights[corner];
-                linear += weights[corner] * glm::vec3{static_cast<float>(word & 0xFFFFU),
-                                                      static_cast<float>(word >> 16U & 0xFFFFU),
-                                                      static_cast<float>(word >> 32U & 0xFFFFU)};
-            }
-            if (coverage < kSmallestCoverage) continue;
-            canvas_.put_fragment(static_cast<std::size_t>(indices[lane]), depths[lane], coverage,
-                                 linear * (1.0F / coverage));
+        const float weights[4] = {(1.0F - u) * (1.0F - v), u * (1.0F - v), (1.0F - u) * v, u * v};
+        glm::vec3 linear{0.0F};
+        float coverage = 0.0F;
+        for (std::uint32_t corners = list_.corners[patch]; corners != 0; corners &= corners - 1) {
+            const auto corner = static_cast<std::size_t>(__builtin_ctz(corners));
+            const std::uint64_t word = words[corner];
+            coverage += weights[corner];
+            linear += weights[corner] * glm::vec3{static_cast<float>(word & 0xFFFFU),
+                                                  static_cast<float>(word >> 16U & 0xFFFFU),
+                                                  static_cast<float>(word >> 32U & 0xFFFFU)};
         }
+        if (coverage < kSmallestCoverage) return;
+        canvas_.put_fragment(index, depth, coverage, linear * (1.0F / coverage));
     }
 
     const PatchInput& input_;

@@ -1,9 +1,12 @@
 #include "warp_server/fill_nearest_background.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <vector>
+
+#include "warp_server/fill_kernels.h"
 
 namespace lw {
 namespace {
@@ -15,29 +18,6 @@ struct HoleRun {
     int end = 0;
     std::size_t first_hole = 0;  // index of its first pixel among all hole pixels
 };
-
-// A reached pixel to copy from. One that does not exist is infinitely near and far away, so it is never chosen.
-struct Candidate {
-    float depth = std::numeric_limits<float>::infinity();
-    int distance_px = std::numeric_limits<int>::max();
-    int index = -1;  // of the pixel
-};
-
-// Ends of one surface seen at a slant differ by a few percent in depth; then the nearer end looks better.
-constexpr float kSameDepthPart = 0.1F;
-
-// The farther surface; the closer end when both are about as far. No branches: it runs on several pixels at once.
-inline Candidate background_of(const Candidate& a, const Candidate& b) {
-    const bool b_is_farther = b.depth < a.depth;
-    const float farther_depth = b_is_farther ? b.depth : a.depth;
-    const float nearer_depth = b_is_farther ? a.depth : b.depth;
-    const int farther_distance_px = b_is_farther ? b.distance_px : a.distance_px;
-    const int nearer_distance_px = b_is_farther ? a.distance_px : b.distance_px;
-    const bool is_same_surface = nearer_depth - farther_depth <= kSameDepthPart * nearer_depth;
-    const bool take_nearer = is_same_surface & (nearer_distance_px < farther_distance_px);
-    const bool take_b = b_is_farther != take_nearer;
-    return {take_b ? b.depth : a.depth, take_b ? b.distance_px : a.distance_px, take_b ? b.index : a.index};
-}
 
 class NearestBackgroundFill final : public Fill {
 public:
@@ -93,20 +73,13 @@ private:
     // Scanning along columns, rows_ and depths_ hold the last reached pixel of each one, where the last row that was
     // seen there is a hole. `beside` is the row that the scan comes from; outside of the image nothing is reached.
     void update_columns(const DisplayFrame& frame, const HoleRun& run, int beside) {
-        int* rows = rows_.data();
-        float* depths = depths_.data();
         if (beside < 0 || beside >= frame.coverage.height()) {
-            std::fill(rows + run.begin, rows + run.end, kNone);
-            std::fill(depths + run.begin, depths + run.end, std::numeric_limits<float>::infinity());
+            std::fill(rows_.begin() + run.begin, rows_.begin() + run.end, kNone);
+            std::fill(depths_.begin() + run.begin, depths_.begin() + run.end, std::numeric_limits<float>::infinity());
             return;
         }
-        const Coverage* coverage_beside = frame.coverage.row(beside).data();
-        const float* depth_beside = frame.depth.row(beside).data();
-        for (int x = run.begin; x < run.end; ++x) {
-            const bool is_reached = coverage_beside[x] != Coverage::hole;
-            rows[x] = is_reached ? beside : rows[x];
-            depths[x] = is_reached ? depth_beside[x] : depths[x];
-        }
+        follow_columns(run.begin, run.end, beside, frame.coverage.row(beside).data(), frame.depth.row(beside).data(),
+                       rows_.data(), depths_.data());
     }
 
     // Bottom row first; what is below each hole pixel is kept until the way back.
@@ -120,31 +93,21 @@ private:
         }
     }
 
-    // For each pixel of the run the index of the pixel it copies, in chosen_.
+    // For each pixel of the run the index of the pixel it copies, into chosen_.
     void choose(const DisplayFrame& frame, const HoleRun& run) {
+        FillRun input;
+        input.y = run.y;
+        input.begin = run.begin;
+        input.end = run.end;
+        input.width = width_;
         const int row_index = run.y * width_;
-        Candidate left;
-        Candidate right;
-        if (run.begin > 0) left = {frame.depth.at(run.begin - 1, run.y), 0, row_index + run.begin - 1};
-        if (run.end < width_) right = {frame.depth.at(run.end, run.y), 0, row_index + run.end};
-        const bool has_left = left.index >= 0;
-        const bool has_right = right.index >= 0;
-        constexpr int kFarAway = std::numeric_limits<int>::max();
-        const int* above = rows_.data();
-        const float* depth_above = depths_.data();
-        const int* below = row_below_.data() + run.first_hole;
-        const float* depth_below = depth_below_.data() + run.first_hole;
-        for (int x = run.begin; x < run.end; ++x) {
-            const int i = x - run.begin;
-            left.distance_px = has_left ? i + 1 : kFarAway;
-            right.distance_px = has_right ? run.end - x : kFarAway;
-            const Candidate up{depth_above[x], above[x] >= 0 ? run.y - above[x] : kFarAway, above[x] * width_ + x};
-            const Candidate down{depth_below[i], below[i] >= 0 ? below[i] - run.y : kFarAway, below[i] * width_ + x};
-            const Candidate along_row = background_of(left, right);
-            const Candidate along_column = background_of(up, down);
-            const bool take_column = along_column.distance_px < along_row.distance_px;
-            chosen_[static_cast<std::size_t>(x)] = take_column ? along_column.index : along_row.index;
-        }
+        if (run.begin > 0) input.left = {frame.depth.at(run.begin - 1, run.y), row_index + run.begin - 1};
+        if (run.end < width_) input.right = {frame.depth.at(run.end, run.y), row_index + run.end};
+        input.row_above = rows_.data() + run.begin;
+        input.depth_above = depths_.data() + run.begin;
+        input.row_below = row_below_.data() + run.first_hole;
+        input.depth_below = depth_below_.data() + run.first_hole;
+        choose_background(input, chosen_.data());
     }
 
     void copy_chosen(DisplayFrame& frame, const HoleRun& run) const {
@@ -152,7 +115,7 @@ private:
         float* depths = frame.depth.pixels().data();
         const std::size_t row_index = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(width_);
         for (int x = run.begin; x < run.end; ++x) {
-            const int from = chosen_[static_cast<std::size_t>(x)];
+            const int from = chosen_[static_cast<std::size_t>(x - run.begin)];
             const std::size_t to = row_index + static_cast<std::size_t>(x);
             colours[to] = from < 0 ? kNothingColour : colours[from];
             depths[to] = from < 0 ? 0.0F : depths[from];
@@ -160,12 +123,12 @@ private:
     }
 
     int width_ = 0;
-    std::vector<HoleRun> runs_;  // top row first
-    std::vector<int> rows_;      // per column, see update_columns()
+    std::vector<HoleRun> runs_;       // top row first
+    std::vector<std::int32_t> rows_;  // per column, see update_columns()
     std::vector<float> depths_;
-    std::vector<int> row_below_;  // per hole pixel: the reached row below, or kNone
+    std::vector<std::int32_t> row_below_;  // per hole pixel: the reached row below, or kNone
     std::vector<float> depth_below_;
-    std::vector<int> chosen_;  // per column, of one run
+    std::vector<std::int32_t> chosen_;  // of one run
 };
 
 }  // namespace

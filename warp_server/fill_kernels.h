@@ -1,0 +1,42 @@
+#pragma once
+/// The inner loops of the nearest-background fill, on the widest vectors the machine has.
+
+#include <cstdint>
+#include <limits>
+
+#include "warp_server/warp_method.h"
+
+namespace lw {
+
+/// A reached pixel that a hole may copy. One that does not exist is infinitely near, so it is never chosen.
+struct FillEnd {
+    float depth = std::numeric_limits<float>::infinity();
+    std::int32_t index = -1;  ///< of the pixel in the image
+};
+
+/// The hole pixels [begin, end) of row y, and what ends their rows and columns.
+struct FillRun {
+    int y = 0;
+    int begin = 0;
+    int end = 0;
+    int width = 0;                            ///< of the image
+    FillEnd left;                             ///< beside `begin`
+    FillEnd right;                            ///< beside `end`
+    const std::int32_t* row_above = nullptr;  ///< per pixel of the run, -1 for none
+    const float* depth_above = nullptr;       ///< infinity for none
+    const std::int32_t* row_below = nullptr;
+    const float* depth_below = nullptr;
+};
+
+/// Ends of one surface seen at a slant differ by a few percent in depth; then the nearer end looks better.
+inline constexpr float kSameDepthPart = 0.1F;
+
+/// For each pixel of the run the index of the one to copy, -1 where there is none: along row and column the farther
+/// surface, or the closer end where both are about as far; of those two the closer one.
+void choose_background(const FillRun& run, std::int32_t* chosen);
+
+/// Columns [begin, end): where `beside` is no hole, `rows` and `depths` take that row and its depth.
+void follow_columns(int begin, int end, int row_beside, const Coverage* beside, const float* depth_beside,
+                    std::int32_t* rows, float* depths);
+
+}  // namespace lw

@@ -34,8 +34,8 @@ using vec4 = glm::vec4;
 #define LW_WARP_PATCHES_BINDING 2
 #define LW_WARP_FRAGMENTS_BINDING 3
 
-// Where an object's source pixels go, by columns: h = x_px * x + y_px * y + one + depth * z, each column as (x, y, w) of
-// the homogeneous target pixel (h.x, h.y) / h.w. What is left of the vectors:
+// Where an object's source pixels go, by columns: h = x_px * x + y_px * y + one + depth * z, each column as (x, y, w)
+// of the homogeneous target pixel (h.x, h.y) / h.w. What is left of the vectors:
 //   one.w  1 when the object has a usable placement, else 0: its pixels are counted and skipped
 //   z.w    scale of the depth: target depth = z.w * depth / h.w
 struct WarpObject {
@@ -47,7 +47,7 @@ struct WarpObject {
 
 // A piece of plane of `surface`: warp_server/methods/surface_classify.h, PatchList.
 struct WarpPatch {
-    vec4 plane;  // column and row of its origin's pixel; depth there; depth per pixel along x
+    vec4 plane;   // column and row of its origin's pixel; depth there; depth per pixel along x
     vec4 limits;  // left, right, top, bottom, relative to the origin, source pixels
     float gradient_y;
     uint object_id;

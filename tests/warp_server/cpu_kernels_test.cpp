@@ -109,8 +109,7 @@ TEST(LinearColour, GivesEveryStoredColourBack) {
         const auto value = static_cast<std::uint8_t>(i);
         image.at(i, 0) = {value, static_cast<std::uint8_t>(255 - i), value, 255};
     }
-    std::vector<std::uint64_t> linear;
-    linearise(image, linear);
+    const auto linear = linearise(image);
     for (int i = 0; i < 256; ++i) {
         const std::uint64_t word = linear[static_cast<std::size_t>(i)];
         EXPECT_EQ(srgb8_from_linear15(static_cast<std::int32_t>(word & 0xFFFFU), srgb_cubics()), i);

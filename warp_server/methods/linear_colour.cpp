@@ -59,14 +59,16 @@ Cubic cubic_of_octave(std::size_t octave) {
 
 }  // namespace
 
-void linearise(const ColourImage& image, std::vector<std::uint64_t>& linear) {
+std::unique_ptr<std::uint64_t[]> linearise(const ColourImage& image) {
     const ChannelTables& tables = channel_tables();
     const std::span<const Rgba8> colours = image.pixels();
-    linear.resize(colours.size() + static_cast<std::size_t>(image.width()) + 8);
+    const std::size_t spare = static_cast<std::size_t>(image.width()) + 8;
+    auto linear = std::make_unique_for_overwrite<std::uint64_t[]>(colours.size() + spare);
     for (std::size_t i = 0; i < colours.size(); ++i) {
         linear[i] = tables.red[colours[i].r] | tables.green[colours[i].g] | tables.blue[colours[i].b];
     }
-    std::fill(linear.begin() + static_cast<std::ptrdiff_t>(colours.size()), linear.end(), 0);
+    std::fill_n(linear.get() + colours.size(), spare, std::uint64_t{0});
+    return linear;
 }
 
 const SrgbCubics& srgb_cubics() {

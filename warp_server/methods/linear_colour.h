@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <vector>
+#include <memory>
 
 #include "core/image.h"
 
@@ -15,7 +15,7 @@ inline constexpr int kLinearOne = 32767;
 
 /// Red, green, blue and 0 in 16 bits each, red lowest, row by row. One more row and a few more pixels than the image,
 /// so that reading two by two pixels at the last one stays inside. Any thread.
-void linearise(const ColourImage& image, std::vector<std::uint64_t>& linear);
+[[nodiscard]] std::unique_ptr<std::uint64_t[]> linearise(const ColourImage& image);
 
 /// sRGB encoding of 15-bit linear light as one cubic per octave: entry e holds for values from 2^e up to 2^(e + 1),
 /// entry 0 for 0 as well. Vectors look the coefficients up and evaluate them, which is faster than a table of all

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 
 #include "core/colour.h"
 #include "warp_server/methods/linear_colour.h"
@@ -124,19 +125,11 @@ private:
         return false;
     }
 
-    [[nodiscard]] bool is_plane(int x0, int y0, int size, const BlockPlane& plane) const {
-        const int x1 = std::min(x0 + size, size_px_.x - 1);
-        const int y1 = std::min(y0 + size, size_px_.y - 1);
-        for (int y = y0; y <= y1; ++y) {
-            const float* depths = links_->pixels().depth.row(y).data();
-            const ObjectId* ids = links_->pixels().object_id.row(y).data();
-            for (int x = x0; x <= x1; ++x) {
-                const bool on_plane = ids[x] == plane.id && is_usable_depth(depths[x]) &&
-                                      depths_agree(depths[x], plane.at(x - x0, y - y0));
-                if (!on_plane) return false;
-            }
-        }
-        return true;
+    [[nodiscard]] bool is_plane(int x, int y, int size, const BlockPlane& plane) const {
+        const int columns = std::min(size, size_px_.x - 1 - x) + 1;
+        const int rows = std::min(size, size_px_.y - 1 - y) + 1;
+        return block_is_plane(links_->pixels(),
+                              {x, y, columns, rows, plane.id, plane.depth, plane.gradient_x, plane.gradient_y});
     }
 
     void add_cell(int x, int y) {
@@ -185,14 +178,29 @@ private:
     glm::ivec2 size_px_;
 };
 
-void count_ids(const CpuPixels& pixels, std::vector<IdCount>& counts) {
+// Pixels and bad depths by id. Most rows are of one object and have no bad depth.
+void count_ids(const CpuPixels& pixels, const SurfaceLinks& links, std::vector<IdCount>& counts) {
     std::vector<IdCount> by_id(1);
-    const std::span<const ObjectId> ids = pixels.object_id.pixels();
-    const std::span<const float> depths = pixels.depth.pixels();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        if (ids[i] >= by_id.size()) by_id.resize(std::size_t{ids[i]} + 1);
-        ++by_id[ids[i]].pixels;
-        if (!is_usable_depth(depths[i])) ++by_id[ids[i]].bad_depths;
+    const auto width = static_cast<std::size_t>(pixels.depth.width());
+    for (int y = 0; y < pixels.depth.height(); ++y) {
+        const std::span<const ObjectId> ids = pixels.object_id.row(y);
+        const std::span<const float> depths = pixels.depth.row(y);
+        for (std::size_t x = 0; x < width;) {
+            // A row equals itself shifted by one pixel when all of it is the same.
+            const bool all_same =
+                x == 0 && std::memcmp(ids.data(), ids.data() + 1, (width - 1) * sizeof(ObjectId)) == 0;
+            std::size_t end = all_same ? width : x + 1;
+            while (end < width && ids[end] == ids[x]) ++end;
+            if (ids[x] >= by_id.size()) by_id.resize(std::size_t{ids[x]} + 1);
+            IdCount& count = by_id[ids[x]];
+            count.pixels += end - x;
+            if (links.has_bad_depth(y)) {
+                count.bad_depths += static_cast<std::uint64_t>(std::count_if(
+                    depths.begin() + static_cast<std::ptrdiff_t>(x), depths.begin() + static_cast<std::ptrdiff_t>(end),
+                    [](float depth) { return !is_usable_depth(depth); }));
+            }
+            x = end;
+        }
     }
     for (std::size_t id = 0; id < by_id.size(); ++id) {
         if (by_id[id].pixels == 0) continue;
@@ -210,8 +218,8 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     prepared->size_px = pixels.depth.size_px();
     const SurfaceLinks links{pixels};
     PatchBuilder{links, *prepared}.build();
-    linearise(pixels.colour, prepared->linear_colours);
-    count_ids(pixels, prepared->id_counts);
+    prepared->linear_colours = linearise(pixels.colour);
+    count_ids(pixels, links, prepared->id_counts);
     return prepared;
 }
 

@@ -48,7 +48,7 @@ struct PreparedSurface final : PreparedLayer {
     PatchList edges;    ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
     /// Colours in linear light, 15 bits each in 16: red lowest. One more row and a few more pixels than the image, so
     /// that a bilinear read at its last pixel stays inside.
-    std::vector<std::uint64_t> linear_colours;
+    std::unique_ptr<std::uint64_t[]> linear_colours;
     std::vector<IdCount> id_counts;  ///< by ascending id
 };
 

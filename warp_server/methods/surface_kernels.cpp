@@ -106,7 +106,7 @@ public:
           target_width_{canvas.frame().depth.width()},
           depths_{canvas.frame().depth.pixels().data()},
           colours_{canvas.frame().colour.pixels().data()},
-          linear_{input.prepared->linear_colours.data()},
+          linear_{input.prepared->linear_colours.get()},
           cubics_{srgb_cubics()},
           encode_{srgb8_from_linear15_table().data()} {}
 

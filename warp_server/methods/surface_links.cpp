@@ -27,7 +27,8 @@ struct PaddedRow {
 constexpr int kPadBefore = 1;
 constexpr int kPadAfter = 2 + HWY_MAX_BYTES / 4;
 
-void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
+// False when the row holds a depth that cannot be used.
+bool fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
@@ -39,14 +40,18 @@ void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
     float* to_depth = row.depth.data() + kPadBefore;
     std::int32_t* to_id = row.id.data() + kPadBefore;
     const int lanes = static_cast<int>(hn::Lanes(d));
+    auto all_usable = hn::Eq(hn::Zero(d), hn::Zero(d));
+    bool rest_usable = true;
     int x = 0;
     for (; x + lanes <= width; x += lanes) {
         const auto value = hn::LoadU(d, depth + x);
         const auto usable = hn::And(hn::Ge(value, hn::Zero(d)), hn::Le(value, hn::Set(d, 1.0F)));
+        all_usable = hn::And(all_usable, usable);
         hn::StoreU(hn::IfThenElse(usable, value, hn::Set(d, -1.0F)), d, to_depth + x);
         hn::StoreU(hn::PromoteTo(di, hn::LoadU(d16, id + x)), di, to_id + x);
     }
     for (; x < width; ++x) {
+        rest_usable = rest_usable && is_usable_depth(depth[x]);
         to_depth[x] = is_usable_depth(depth[x]) ? depth[x] : -1.0F;
         to_id[x] = id[x];
     }
@@ -54,6 +59,7 @@ void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
     to_id[-1] = to_id[0];
     std::fill(to_depth + width, to_depth + width + kPadAfter, to_depth[width - 1]);
     std::fill(to_id + width, to_id + width + kPadAfter, to_id[width - 1]);
+    return rest_usable && hn::AllTrue(d, all_usable);
 }
 
 // on_one_surface for Lanes(d) pixels a whose neighbours b follow. Depths of other objects than a's count as -1.
@@ -102,17 +108,59 @@ void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& be
     }
 }
 
-void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links) {
+void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links, std::vector<std::uint8_t>& bad_rows) {
     const int height = pixels.depth.height();
     PaddedRow rows[4];  // y - 1, y, y + 1, y + 2, by y % 4
     const auto row = [&](int y) -> PaddedRow& {
         return rows[static_cast<unsigned>(std::clamp(y, 0, height - 1)) % 4U];
     };
-    for (int y = 0; y < std::min(2, height); ++y) fill_row(pixels, y, row(y));
+    const auto fill = [&](int y) { bad_rows[static_cast<std::size_t>(y)] = fill_row(pixels, y, row(y)) ? 0 : 1; };
+    for (int y = 0; y < std::min(2, height); ++y) fill(y);
     for (int y = 0; y < height; ++y) {
-        if (y + 2 < height) fill_row(pixels, y + 2, row(y + 2));
+        if (y + 2 < height) fill(y + 2);
         link_row(row(y - 1), row(y), row(y + 1), row(y + 2), links.width(), links.row(y).data());
     }
+}
+
+bool block_is_plane_here(const CpuPixels& pixels, const BlockToTest& block) {
+    const hn::ScalableTag<float> d;
+    const hn::RebindToSigned<decltype(d)> di;
+    const hn::Rebind<std::uint16_t, decltype(d)> d16;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const auto width = static_cast<std::size_t>(pixels.depth.width());
+    const std::size_t count = pixels.depth.pixels().size();
+    const auto tolerance = hn::Set(d, kPlaneDepthPart);
+    const auto wanted_id = hn::Set(di, std::int32_t{block.id});
+    const auto step = hn::Mul(hn::Iota(d, 0.0F), hn::Set(d, block.gradient_x));
+    for (int row = 0; row < block.rows; ++row) {
+        const std::size_t row_start =
+            static_cast<std::size_t>(block.y + row) * width + static_cast<std::size_t>(block.x);
+        const float row_depth = block.depth + static_cast<float>(row) * block.gradient_y;
+        for (int column = 0; column < block.columns; column += lanes) {
+            const std::size_t at = row_start + static_cast<std::size_t>(column);
+            const float first_depth = row_depth + static_cast<float>(column) * block.gradient_x;
+            if (at + static_cast<std::size_t>(lanes) > count) {  // a vector would read beyond the image
+                for (int i = 0; i < std::min(lanes, block.columns - column); ++i) {
+                    const float depth = pixels.depth.pixels()[at + static_cast<std::size_t>(i)];
+                    const float expected = first_depth + static_cast<float>(i) * block.gradient_x;
+                    const bool on_plane = is_usable_depth(depth) &&
+                                          std::abs(depth - expected) <= kPlaneDepthPart * depth &&
+                                          pixels.object_id.pixels()[at + static_cast<std::size_t>(i)] == block.id;
+                    if (!on_plane) return false;
+                }
+                continue;
+            }
+            const auto depth = hn::LoadU(d, pixels.depth.pixels().data() + at);
+            const auto id = hn::PromoteTo(di, hn::LoadU(d16, pixels.object_id.pixels().data() + at));
+            const auto off = hn::Abs(hn::Sub(depth, hn::Add(hn::Set(d, first_depth), step)));
+            // Nothing else need be asked: a negative depth allows nothing, and one above 1 or NaN fails below.
+            auto on_plane = hn::And(hn::Le(off, hn::Mul(tolerance, depth)), hn::Le(depth, hn::Set(d, 1.0F)));
+            on_plane = hn::And(on_plane, hn::RebindMask(d, hn::Eq(id, wanted_id)));
+            const auto asked = hn::FirstN(d, static_cast<std::size_t>(block.columns - column));
+            if (!hn::AllFalse(d, hn::AndNot(on_plane, asked))) return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace
@@ -123,10 +171,16 @@ HWY_AFTER_NAMESPACE();
 namespace lw {
 
 HWY_EXPORT(link_image);
+HWY_EXPORT(block_is_plane_here);
+
+bool block_is_plane(const CpuPixels& pixels, const BlockToTest& block) {
+    return HWY_DYNAMIC_DISPATCH(block_is_plane_here)(pixels, block);
+}
 
 SurfaceLinks::SurfaceLinks(const CpuPixels& pixels) : pixels_{&pixels} {
     to_right_and_down_.resize(pixels.depth.size_px());
-    HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_);
+    bad_rows_.resize(static_cast<std::size_t>(pixels.depth.height()));
+    HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_, bad_rows_);
 }
 
 float SurfaceLinks::depth_of(ObjectId id, int x, int y) const {

@@ -19,6 +19,10 @@ PackedInstance packed(const glm::dmat4& world_from_object, const glm::dvec3& eye
     return instance;
 }
 
+double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
+    return glm::distance(place, glm::clamp(place, box.min, box.max));
+}
+
 }  // namespace
 
 DrawList::DrawList(const scene::Scene& scene, const scene::SceneState& state) : scene_{scene} {
@@ -32,7 +36,9 @@ DrawList::DrawList(const scene::Scene& scene, const scene::SceneState& state) : 
         if (placed_[i].instance->mover != 0) movers_.push_back(static_cast<std::uint32_t>(i));
     }
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) first_of_mesh_[mesh + 1] += first_of_mesh_[mesh];
-    for (auto& visible : visible_) visible.resize(scene.meshes.size());
+    for (auto& zone : visible_) {
+        for (auto& visible : zone) visible.resize(scene.meshes.size());
+    }
 }
 
 void DrawList::place(PlacedInstance& placed, const scene::SceneState& state) const {
@@ -47,18 +53,24 @@ void DrawList::collect_visible(const Camera& camera, bool cull) {
     const glm::dvec3& eye_world = camera.world_from_eye.position_m;
     packed_.clear();
     for (std::size_t mesh = 0; mesh < scene_.meshes.size(); ++mesh) {
-        const auto first = static_cast<std::uint32_t>(packed_.size());
-        packed_mirrored_.clear();
         for (std::uint32_t i = first_of_mesh_[mesh]; i < first_of_mesh_[mesh + 1]; ++i) {
             const PlacedInstance& placed = placed_[i];
             if (cull && !may_see(frustum, placed.bounds_world)) continue;
-            (placed.mirrored ? packed_mirrored_ : packed_)
-                .push_back(packed(placed.world_from_object, eye_world, placed.instance->mover));
+            const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
+            const auto zone =
+                static_cast<std::size_t>(std::ranges::upper_bound(kZoneEnds_m, distance_m) - kZoneEnds_m.begin());
+            collected_[zone][placed.mirrored ? 1 : 0].push_back(
+                packed(placed.world_from_object, eye_world, placed.instance->mover));
         }
-        const auto middle = static_cast<std::uint32_t>(packed_.size());
-        packed_.insert(packed_.end(), packed_mirrored_.begin(), packed_mirrored_.end());
-        visible_[0][mesh] = {first, middle - first};
-        visible_[1][mesh] = {middle, static_cast<std::uint32_t>(packed_mirrored_.size())};
+        for (std::size_t zone = 0; zone < kZones; ++zone) {
+            for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
+                std::vector<PackedInstance>& collected = collected_[zone][mirrored];
+                visible_[zone][mirrored][mesh] = {static_cast<std::uint32_t>(packed_.size()),
+                                                  static_cast<std::uint32_t>(collected.size())};
+                packed_.insert(packed_.end(), collected.begin(), collected.end());
+                collected.clear();
+            }
+        }
     }
 }
 
@@ -70,11 +82,16 @@ void DrawList::build(const scene::SceneState& state, const Camera& camera,
     commands_.clear();
     ranges_.clear();
     triangles_drawn_ = 0;
+    for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches);
+}
+
+void DrawList::append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches) {
     for (std::size_t batch = 0; batch < batches.size(); ++batch) {
         for (const bool mirrored : {false, true}) {
             DrawRange range{static_cast<int>(batch), mirrored, commands_.size(), 0};
             for (const MeshPart& part : batches[batch]) {
-                const VisibleRange& visible = visible_[mirrored ? 1 : 0][static_cast<std::size_t>(part.mesh)];
+                const auto mesh = static_cast<std::size_t>(part.mesh);
+                const VisibleRange& visible = visible_[zone][mirrored ? 1 : 0][mesh];
                 if (visible.count == 0) continue;
                 commands_.push_back(
                     {part.index_count, visible.count, part.first_index, part.base_vertex, visible.first});

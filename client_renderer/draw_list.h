@@ -82,7 +82,7 @@ private:
     std::vector<std::uint32_t> first_of_mesh_;  ///< into placed_, one more than there are meshes
     std::vector<std::uint32_t> movers_;         ///< into placed_
     /// Instances are drawn by distance from the eye, in zones that end at these metres and a last one that does not
-    /// end. Drawing the city nearer zones first takes a quarter less time than in any order.
+    /// end. Nearer zones first saves an eighth of the processor time of the start view of the city.
     static constexpr std::array kZoneEnds_m{12.0, 30.0, 75.0};
     static constexpr std::size_t kZones = kZoneEnds_m.size() + 1;
     std::array<std::array<std::vector<VisibleRange>, 2>, kZones> visible_;  ///< by mesh; [1] the mirrored ones

@@ -7,14 +7,16 @@ namespace lw {
 
 PacerPlan Pacer::next_wake(TimePoint now, const Refresh& next) const {
     Refresh refresh = next;
-    if (is_too_slow_for(next.period)) {
-        while (refresh.scanout_begin - now < ordinary_work_ + margin_) {
+    const bool too_slow = is_too_slow_for(next.period);
+    if (!settings_.fixed_lead) {
+        const Duration least = too_slow ? ordinary_work_ + margin_ : ordinary_work_;
+        while (refresh.scanout_begin - now < least) {
             ++refresh.number;
             refresh.scanout_begin += next.period;
         }
-        return {refresh, std::max(now, refresh.scanout_begin - ordinary_work_ - margin_)};
     }
-    return {refresh, std::max(now, refresh.scanout_begin - lead(refresh.period))};
+    const Duration needed = too_slow ? ordinary_work_ + margin_ : lead(next.period);
+    return {refresh, std::max(now, refresh.scanout_begin - needed)};
 }
 
 Duration Pacer::lead(Duration period) const {

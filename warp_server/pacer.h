@@ -40,8 +40,9 @@ public:
     explicit Pacer(const PacerSettings& settings = {}) : settings_{settings}, margin_{settings.smallest_margin} {}
 
     /// `next` is the first refresh that still lacks a picture (Presenter::next_refresh). The plan is made for it, or,
-    /// when the work ordinarily takes longer than a period, for the first one that can still be reached: a picture
-    /// predicted to the time it is really shown is worth more than a punctual attempt. `next.scanout_begin` > `now`.
+    /// when the time left is less than the work ordinarily takes, for the first refresh that can still be reached: a
+    /// picture predicted to the time it is really shown is worth more than an attempt that is bound to be late, and a
+    /// single overrun then costs one refresh more instead of delaying all that follow. `next.scanout_begin` > `now`.
     [[nodiscard]] PacerPlan next_wake(TimePoint now, const Refresh& next) const;
 
     /// Learns from a finished refresh. A late wake-up counts as work: on a machine that wakes threads late the lead has

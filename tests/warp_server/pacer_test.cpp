@@ -104,6 +104,15 @@ TEST(Pacer, BacksOffWhenWorkGrows) {
     EXPECT_GE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 7.3);
 }
 
+TEST(Pacer, AnOverrunDoesNotDelayTheRefreshesAfterIt) {
+    Pacer pacer;
+    run(pacer, 2.0, [] { return from_ms(10.0); });  // of 11.1: little slack to catch up with
+    int pictures = 0;
+    const RunResult result = run(pacer, 1.0, [&] { return ++pictures == 20 ? from_ms(15.0) : from_ms(10.0); });
+    // The picture that took too long, and the refresh that it left no time for.
+    EXPECT_EQ(result.missed, 2);
+}
+
 TEST(Pacer, WorkLongerThanAPeriodAimsWhereItCanArrive) {
     Pacer pacer;
     run(pacer, 2.0, [] { return from_ms(25.0); });

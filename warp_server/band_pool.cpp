@@ -1,5 +1,7 @@
 #include "warp_server/band_pool.h"
 
+#include <algorithm>
+
 #include "warp_server/methods/row_range.h"
 
 namespace lw {
@@ -42,10 +44,11 @@ void BandPool::run(const std::function<void(int)>& work) {
     }
     wake_.notify_all();
     work(0);
-    // On fewer cores than threads a worker may need this one's core: yield instead of spinning on.
-    while (running_.load(std::memory_order_acquire) != 0) {
-        if (!spin_until([&] { return running_.load(std::memory_order_acquire) == 0; })) std::this_thread::yield();
-    }
+    const auto is_done = [&] { return running_.load(std::memory_order_acquire) == 0; };
+    if (spin_until(is_done)) return;
+    // Sleep: on fewer cores than threads, or at a higher priority, spinning on would keep a worker from its core.
+    std::unique_lock lock{mutex_};
+    done_.wait(lock, is_done);
 }
 
 void BandPool::serve(int index) {
@@ -59,10 +62,23 @@ void BandPool::serve(int index) {
         if (stop_) return;
         ++seen;
         (*work_)(index);
-        running_.fetch_sub(1, std::memory_order_release);
+        if (running_.fetch_sub(1, std::memory_order_acq_rel) != 1) continue;
+        { const std::lock_guard lock{mutex_}; }  // so that run() is either before its last look or asleep
+        done_.notify_one();
     }
 }
 
 RowRange band_of_rows(int rows, int index, int count) { return {rows * index / count, rows * (index + 1) / count}; }
+
+RowRange band_of_cost(std::span<const float> cost_until, int index, int count) {
+    const int rows = static_cast<int>(cost_until.size()) - 1;
+    const auto first_row_at = [&](int part) {
+        if (part == 0) return 0;
+        if (part == count) return rows;
+        const float cost = cost_until.back() * static_cast<float>(part) / static_cast<float>(count);
+        return static_cast<int>(std::lower_bound(cost_until.begin(), cost_until.end() - 1, cost) - cost_until.begin());
+    };
+    return {first_row_at(index), first_row_at(index + 1)};
+}
 
 }  // namespace lw

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
+#include <span>
 #include <thread>
 #include <vector>
 
@@ -38,10 +39,15 @@ private:
     std::atomic<bool> stop_{false};
     std::mutex mutex_;
     std::condition_variable wake_;
+    std::condition_variable done_;
 };
 
 /// Cuts `rows` rows into bands for `count` threads: band `index` of them, as equal as they can be.
 struct RowRange;
 [[nodiscard]] RowRange band_of_rows(int rows, int index, int count);
+
+/// Bands of rows that cost about the same: `cost_until[y]` is the cost of all rows before y, one more entry than rows,
+/// ascending. Band `index` of `count`.
+[[nodiscard]] RowRange band_of_cost(std::span<const float> cost_until, int index, int count);
 
 }  // namespace lw

@@ -103,6 +103,21 @@ TEST(BandPool, BandsMeetAndCoverAllRows) {
     }
 }
 
+TEST(BandPool, BandsOfCostMeetAndShareTheCost) {
+    const std::vector<float> cost_until{0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 2.0F, 3.0F, 4.0F};  // all of it in rows 3 to 6
+    EXPECT_EQ(band_of_cost(cost_until, 0, 2).begin, 0);
+    EXPECT_EQ(band_of_cost(cost_until, 0, 2).end, 5);
+    EXPECT_EQ(band_of_cost(cost_until, 1, 2).begin, 5);
+    EXPECT_EQ(band_of_cost(cost_until, 1, 2).end, 7);
+    const std::vector<float> nothing(9, 0.0F);
+    int next = 0;
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(band_of_cost(nothing, i, 3).begin, next);
+        next = band_of_cost(nothing, i, 3).end;
+    }
+    EXPECT_EQ(next, 8);
+}
+
 TEST(LinearColour, GivesEveryStoredColourBack) {
     ColourImage image{{256, 1}};
     for (int i = 0; i < 256; ++i) {

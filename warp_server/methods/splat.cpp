@@ -28,6 +28,7 @@ public:
         input_ = {&pixels, &matrices_};
         background_ = {background_source_from_target(layer.camera, target.camera)};
         out_ = &out;
+        if (pool_.threads() > 1) estimate_costs(pixels.depth);
         pool_.run(splat_share_);
         for (const Share& share : shares_) {
             counters_.bad_depth += share.counters.bad_depth;
@@ -43,6 +44,22 @@ private:
         WarpCounters counters;
     };
 
+    // Points cost, background does not: counts them in a sample of the pixels.
+    void estimate_costs(const DepthImage& depth) {
+        constexpr int kRowStep = 8;
+        constexpr int kColumnStep = 16;
+        cost_until_.assign(static_cast<std::size_t>(depth.height()) + 1, 0.0F);
+        float row_cost = 0.0F;
+        for (int y = 0; y < depth.height(); ++y) {
+            if (y % kRowStep == 0) {
+                row_cost = 0.1F;  // looking at background costs a little, too
+                for (int x = kColumnStep / 2; x < depth.width(); x += kColumnStep)
+                    row_cost += depth.at(x, y) > 0.0F ? 1.0F : 0.0F;
+            }
+            cost_until_[static_cast<std::size_t>(y) + 1] = cost_until_[static_cast<std::size_t>(y)] + row_cost;
+        }
+    }
+
     void splat_share(int thread) {
         Share& share = shares_[static_cast<std::size_t>(thread)];
         if (share.keys.size_px() != out_->colour.size_px()) {  // else resolving left them cleared
@@ -50,7 +67,9 @@ private:
             std::fill(share.keys.pixels().begin(), share.keys.pixels().end(), WinnerKey{0});
         }
         share.counters = {};
-        const RowRange rows = band_of_rows(input_.pixels->depth.height(), thread, pool_.threads());
+        const int height = input_.pixels->depth.height();
+        const RowRange rows =
+            pool_.threads() == 1 ? RowRange{0, height} : band_of_cost(cost_until_, thread, pool_.threads());
         share.written = splat_points(input_, rows, share.keys, share.counters);
     }
 
@@ -72,6 +91,7 @@ private:
     SplatInput input_;
     BackgroundLookup background_;
     DisplayFrame* out_ = nullptr;
+    std::vector<float> cost_until_;
     // Kept, because making a function object may allocate.
     std::function<void(int)> splat_share_ = [this](int thread) { splat_share(thread); };
     std::function<void(int)> resolve_band_ = [this](int thread) { resolve_band(thread); };

@@ -2,9 +2,11 @@
 /// over the target, where every pixel in it asks for its exact place in the source and reads the colour there.
 
 #include <algorithm>
+#include <cmath>
 
 #include "warp_server/band_pool.h"
 #include "warp_server/methods/factories.h"
+#include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_canvas.h"
 #include "warp_server/methods/surface_classify.h"
@@ -51,7 +53,10 @@ private:
 class SurfaceMethod final : public WarpMethod {
 public:
     SurfaceMethod(std::string label, int threads)
-        : label_{std::move(label)}, pool_{threads}, painters_(static_cast<std::size_t>(threads)) {}
+        : label_{std::move(label)},
+          pool_{threads},
+          painters_(static_cast<std::size_t>(threads)),
+          bands_(static_cast<std::size_t>(threads)) {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
 
@@ -76,10 +81,29 @@ public:
             return;
         }
         out_ = &out;
+        place_bands(layer.camera, target.camera);
         pool_.run(paint_band_);
     }
 
 private:
+    // Bands of the source that cost the same, moved to where their middles land when the head only turns: near enough
+    // for sharing work, and the picture does not depend on it.
+    void place_bands(const Camera& source, const Camera& target) {
+        const int threads = pool_.threads();
+        const glm::mat3 source_from_target = background_source_from_target(source, target);
+        const glm::mat3 target_from_source = glm::inverse(source_from_target);
+        const int height = target.size_px.y;
+        for (int i = 0; i < threads; ++i) {
+            const RowRange rows = band_of_cost(input_.prepared->cost_until, i, threads);
+            const glm::vec3 place = target_from_source * glm::vec3{0.5F * static_cast<float>(source.size_px.x),
+                                                                   static_cast<float>(rows.end), 1.0F};
+            const bool usable = place.z > 0.0F && std::abs(place.y) < 1e6F * place.z;
+            const int previous = i == 0 ? 0 : bands_[static_cast<std::size_t>(i) - 1].end;
+            const int end = usable ? std::clamp(static_cast<int>(place.y / place.z), previous, height) : previous;
+            bands_[static_cast<std::size_t>(i)] = {previous, i + 1 == threads ? height : end};
+        }
+    }
+
     void count_bad_pixels(const PreparedSurface& prepared) {
         counters_ = {};
         for (const IdCount& count : prepared.id_counts) {
@@ -108,13 +132,13 @@ private:
     std::string label_;
     BandPool pool_;
     std::vector<BandPainter> painters_;
+    std::vector<RowRange> bands_;
     ObjectMatrices matrices_;
     PatchInput input_;
     DisplayFrame* out_ = nullptr;
     // Kept, because making a function object may allocate.
     std::function<void(int)> paint_band_ = [this](int thread) {
-        const RowRange band = band_of_rows(out_->colour.height(), thread, pool_.threads());
-        painters_[static_cast<std::size_t>(thread)].paint(input_, band, *out_);
+        painters_[static_cast<std::size_t>(thread)].paint(input_, bands_[static_cast<std::size_t>(thread)], *out_);
     };
 };
 

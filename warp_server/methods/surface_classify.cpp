@@ -209,6 +209,28 @@ void count_ids(const CpuPixels& pixels, const SurfaceLinks& links, std::vector<I
     }
 }
 
+// In pixels of a large block; measured. Small patches cost by their number, not by their size.
+constexpr float kCostPerPatch = 6.0F;
+constexpr float kCostPerEdge = 12.0F;
+
+std::vector<float> accumulated_costs(const PreparedSurface& prepared) {
+    std::vector<float> until(static_cast<std::size_t>(prepared.size_px.y) + 1, 0.0F);
+    const auto add = [&](const PatchList& list, float per_patch) {
+        for (std::size_t i = 0; i < list.size(); ++i) {
+            const auto begin = static_cast<std::size_t>(list.y[i]);
+            const auto end =
+                std::min(begin + static_cast<std::size_t>(std::max(1.0F, list.bottom[i])), until.size() - 1);
+            const float per_row = list.right[i] + per_patch / static_cast<float>(end - begin);
+            for (std::size_t y = begin; y < end; ++y) until[y + 1] += per_row;
+        }
+    };
+    add(prepared.blocks, kCostPerPatch);
+    add(prepared.patches, kCostPerPatch);
+    add(prepared.edges, kCostPerEdge);
+    for (std::size_t y = 1; y < until.size(); ++y) until[y] += until[y - 1];
+    return until;
+}
+
 }  // namespace
 
 void PatchList::clear() { *this = {}; }
@@ -220,6 +242,7 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     PatchBuilder{links, *prepared}.build();
     prepared->linear_colours = linearise(pixels.colour);
     count_ids(pixels, links, prepared->id_counts);
+    prepared->cost_until = accumulated_costs(*prepared);
     return prepared;
 }
 

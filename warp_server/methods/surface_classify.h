@@ -50,6 +50,7 @@ struct PreparedSurface final : PreparedLayer {
     /// that a bilinear read at its last pixel stays inside.
     std::unique_ptr<std::uint64_t[]> linear_colours;
     std::vector<IdCount> id_counts;  ///< by ascending id
+    std::vector<float> cost_until;   ///< estimated cost of drawing all patches before each source row, and of all
 };
 
 /// Any thread. `pixels` may hold bad depths: they are on no surface.

@@ -7,6 +7,7 @@
 
 #include "core/clock.h"
 #include "frame_link/feeds.h"
+#include "frame_link/prediction.h"
 #include "warp_server/fill.h"
 #include "warp_server/warp_method.h"
 

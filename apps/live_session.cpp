@@ -55,6 +55,7 @@ private:
     void draw_until_stopped(SceneRenderer& renderer);
     void server_thread();
     Status prepare_server(std::unique_ptr<gl::Context>& context);
+    void raise_priority();
     void show_until_stopped();
 
     [[nodiscard]] const HeadPoseFeed& head() const {
@@ -221,6 +222,9 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     settings.max_hz = options_.app_hz.value_or(0.0);
     settings.predict_source_pose = options_.source_pose == SourcePose::predicted;
     settings.source = options_.source;
+    // A software GL pays for every pixel: twice of them (1.9x in the city) halved the client's rate, and the frames got
+    // older by more than the band covers. There `auto` means none; a band in degrees is drawn as asked.
+    if (!settings.source.guard_band_rad && client_context_->is_software()) settings.source.guard_band_rad = 0.0;
     settings.textures = textures_;
     const auto prepare = [this](Layer& layer) {
         result_.source_views.push_back({layer.camera, layer.scene_time_s});
@@ -254,6 +258,8 @@ Status LiveSession::prepare_server(std::unique_ptr<gl::Context>& context) {
         context = std::move(made).value();
         context->make_current();
     }
+    // The threads of a CPU method inherit the priority; those of a GL driver must not.
+    if (!entry_.needs_gl) raise_priority();
     auto warper = FrameWarper::create(options_.method, options_.fill);
     if (!warper) return warper.error();
     warper_ = std::move(warper).value();
@@ -262,9 +268,13 @@ Status LiveSession::prepare_server(std::unique_ptr<gl::Context>& context) {
     } else {
         virtual_display_.emplace(clock_.now(), options_.display_hz, options_.size_px);
     }
+    if (entry_.needs_gl) raise_priority();
     wake_exactly();
-    if (realtime_allowed_ && take_realtime_priority()) result_.scheduling = Scheduling::fifo;
     return Done{};
+}
+
+void LiveSession::raise_priority() {
+    if (realtime_allowed_ && take_realtime_priority()) result_.scheduling = Scheduling::fifo;
 }
 
 void LiveSession::show_until_stopped() {

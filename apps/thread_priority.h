@@ -24,7 +24,8 @@ enum class Scheduling : std::uint8_t {
 /// @return false when the machine refuses
 [[nodiscard]] bool step_back();
 
-/// Has the calling thread woken as exactly as its timers say; ordinary threads may otherwise be 50 us late.
+/// Has the calling thread woken as exactly as its timers say, and before threads that are already running; ordinary
+/// threads may otherwise be some milliseconds late. Does what the kernel allows.
 void wake_exactly();
 
 /// Names the calling thread in debuggers and profilers. At most 15 characters.

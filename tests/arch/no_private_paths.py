@@ -23,7 +23,7 @@ def main():
     assert not PRIVATE.search("see docs/home/page.md and https://example.org/work/of-art")
     problems = []
     for path in project_files(root):
-        if path.suffix not in TEXT or path == pathlib.Path(__file__).resolve():
+        if path.suffix not in TEXT or path.resolve() == pathlib.Path(__file__).resolve():
             continue
         for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
             match = PRIVATE.search(line)

@@ -343,10 +343,11 @@ std::string footer() {
 }
 
 /// The best method there is: the first of these that was built. Live it must leave time to spare in every refresh of
-/// two busy cores, and surface takes four times as long as splat there.
+/// two busy cores: surface takes four times as long as splat there, and splat on one thread was too late for 3-17 % of
+/// the refreshes of a turning head where two threads were for 0.4-0.6 % (city, 1024x1024, in turns).
 std::string default_method(Subcommand subcommand) {
     const bool live = subcommand == Subcommand::demo || subcommand == Subcommand::measure;
-    for (const char* name : {live ? "splat" : "surface", "splat", "reference"}) {
+    for (const char* name : {live ? "splat:threads=2" : "surface", "splat", "reference"}) {
         if (find_warp_method(name) != nullptr) return name;
     }
     return std::string{warp_methods().front().name};

@@ -343,7 +343,7 @@ std::string footer() {
 }
 
 /// The best method there is: the first of these that was built. Live it must leave time to spare in every refresh of
-/// two busy cores: surface takes four times as long as splat there, and splat on one thread was too late for 3-17 % of
+/// two busy cores: surface takes four times as long as splat there, and splat on one thread was too late for 17 % of
 /// the refreshes of a turning head where two threads were for 0.4-0.6 % (city, 1024x1024, in turns).
 std::string default_method(Subcommand subcommand) {
     const bool live = subcommand == Subcommand::demo || subcommand == Subcommand::measure;

@@ -8,13 +8,12 @@
 
 #include <cstring>
 
+#include "warp_server/methods/lanes.h"
 #include "warp_server/methods/splat_footprint.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 template <class D>
 using Vec = hn::Vec<D>;
@@ -23,21 +22,6 @@ using Mask = hn::Mask<D>;
 
 constexpr float kNoNeighbour = 8.0F;        // a depth that lies on no surface: depths are at most 1
 constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no image; keeps later sums far from overflow
-
-// One bit per lane. Reads back exactly the bytes that are written: a wider read would wait for the write to reach the
-// cache.
-template <class D, class M>
-HWY_INLINE std::uint32_t bits_of(D d, M mask) {
-    if constexpr (hn::MaxLanes(D{}) > 8) {
-        std::uint16_t bits = 0;
-        hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
-        return bits;
-    } else {
-        std::uint8_t bits = 0;
-        hn::StoreMaskBits(d, mask, &bits);
-        return bits;
-    }
-}
 
 // 1, 2 and 4 measured: 8.3, 7.7 and 8.0 ms for a picture turned by 10 degrees; 11.6 without.
 constexpr std::ptrdiff_t kPrefetchRows = 2;
@@ -106,7 +90,6 @@ HWY_INLINE void splat_lanes(D d, RowContext& row, int x, const PixelMatrix& m, M
     using DI = hn::RebindToSigned<D>;
     const DU du;
     const DI di;
-    constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
     const CpuPixels& pixels = *row.input->pixels;
     const int width = pixels.depth.width();
     const int height = pixels.depth.height();
@@ -322,7 +305,6 @@ HWY_INLINE void resolve_block(D d, const CpuPixels& pixels, const glm::mat3& h, 
     const hn::RebindToUnsigned<D> du;
     const hn::RebindToSigned<D> di;
     const hn::Rebind<std::uint8_t, D> d8;
-    constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width()) + static_cast<std::size_t>(x);
     auto* words = reinterpret_cast<std::uint32_t*>(keys + i);

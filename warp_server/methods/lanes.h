@@ -1,0 +1,48 @@
+/// What the vector loops of all CPU methods share. Included by files that Highway compiles for every instruction set.
+
+// Once per instruction set: the guard toggles where `#pragma once` would read this file only the first time.
+#if defined(LW_WARP_SERVER_METHODS_LANES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LW_WARP_SERVER_METHODS_LANES_H
+#undef LW_WARP_SERVER_METHODS_LANES_H
+#else
+#define LW_WARP_SERVER_METHODS_LANES_H
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// 32-bit lanes of the widest vector.
+inline constexpr std::size_t kMaxLanes = HWY_MAX_BYTES / sizeof(float);
+
+/// Whole vectors of pixels.
+using DF = hn::ScalableTag<float>;
+using DI = hn::RebindToSigned<DF>;
+using DU = hn::RebindToUnsigned<DF>;
+using VF = hn::Vec<DF>;
+
+/// One bit per lane, the first lane lowest. Reads back exactly the bytes that are written: a wider read would wait for
+/// the write to reach the cache.
+template <class D, class M>
+HWY_INLINE std::uint32_t bits_of(D d, M mask) {
+    if constexpr (hn::MaxLanes(D{}) > 8) {
+        std::uint16_t bits = 0;
+        hn::StoreMaskBits(d, mask, reinterpret_cast<std::uint8_t*>(&bits));
+        return bits;
+    } else {
+        std::uint8_t bits = 0;
+        hn::StoreMaskBits(d, mask, &bits);
+        return bits;
+    }
+}
+
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

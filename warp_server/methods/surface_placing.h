@@ -1,0 +1,150 @@
+/// Placing pieces of `surface`: where patches land in the target and how to get back, many at once.
+
+// Once per instruction set: the guard toggles where `#pragma once` would read this file only the first time.
+#if defined(LW_WARP_SERVER_METHODS_SURFACE_PLACING_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LW_WARP_SERVER_METHODS_SURFACE_PLACING_H
+#undef LW_WARP_SERVER_METHODS_SURFACE_PLACING_H
+#else
+#define LW_WARP_SERVER_METHODS_SURFACE_PLACING_H
+#endif
+
+#include <algorithm>
+#include <vector>
+
+#include "warp_server/methods/lanes.h"
+#include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/row_range.h"
+#include "warp_server/methods/surface_classify.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+
+inline constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no image
+// Target pixels per source pixel, in area, below which a plane counts as seen edge-on; negative: from its back.
+inline constexpr float kSmallestArea = 1e-4F;
+
+/// Patches laid out for one target: the inverse of each one's homography, relative to where its origin lands. With e
+/// the offset of a target place from there: k = inverse * e, share = 1 - w_x kx - w_y ky, offset in the source =
+/// w / share * k.
+struct alignas(HWY_MAX_BYTES) PlacedPatches {
+    float target_x[kMaxLanes];
+    float target_y[kMaxLanes];
+    float w[kMaxLanes];
+    float w_x[kMaxLanes];
+    float w_y[kMaxLanes];
+    float inverse_xx[kMaxLanes];
+    float inverse_xy[kMaxLanes];
+    float inverse_yx[kMaxLanes];
+    float inverse_yy[kMaxLanes];
+    float depth_factor[kMaxLanes];  ///< depth in the target = factor * share * depth in the source
+    std::int32_t x_begin[kMaxLanes];
+    std::int32_t x_end[kMaxLanes];
+    std::int32_t y_begin[kMaxLanes];
+    std::int32_t y_end[kMaxLanes];
+};
+
+/// The rows that a picture is drawn in, and its width.
+struct TargetBand {
+    std::int32_t width_px = 0;
+    RowRange rows;
+};
+
+/// Places Lanes(d) patches of one object from index `first` on. One bit for each of those `wanted` that have pixels in
+/// the band. Those that reach behind the target eye have none; their indices are appended to `behind`.
+template <class D, class M>
+HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t first, const PixelMatrix& m, M wanted,
+                                       const TargetBand& band, PlacedPatches& placed,
+                                       std::vector<std::uint32_t>& behind) {
+    using V = hn::Vec<D>;
+    const hn::RebindToSigned<D> di;
+    const auto set = [&](float value) { return hn::Set(d, value); };
+    const auto load = [&](const std::vector<float>& values) { return hn::LoadU(d, values.data() + first); };
+    const V half_px = set(0.5F);
+    const V x = hn::Add(load(list.x), half_px);
+    const V y = hn::Add(load(list.y), half_px);
+    const V z = load(list.depth);
+    const V gradient_x = load(list.gradient_x);
+    const V gradient_y = load(list.gradient_y);
+    const auto row = [&](float one, float of_y, float of_x, float of_z) {
+        return hn::Add(hn::Add(hn::Add(set(one), hn::Mul(y, set(of_y))), hn::Mul(x, set(of_x))), hn::Mul(z, set(of_z)));
+    };
+    const V w = row(m.one.w, m.y.w, m.x.w, m.z.w);
+    const V inverse_w = hn::Div(set(1.0F), w);
+    const V target_x = hn::Mul(row(m.one.x, m.y.x, m.x.x, m.z.x), inverse_w);
+    const V target_y = hn::Mul(row(m.one.y, m.y.y, m.x.y, m.z.y), inverse_w);
+    const auto column = [&](float of_place, V gradient, float of_z) {
+        return hn::Add(set(of_place), hn::Mul(gradient, set(of_z)));
+    };
+    const V w_x = column(m.x.w, gradient_x, m.z.w);
+    const V w_y = column(m.y.w, gradient_y, m.z.w);
+    const V xx = hn::Sub(column(m.x.x, gradient_x, m.z.x), hn::Mul(target_x, w_x));
+    const V xy = hn::Sub(column(m.y.x, gradient_y, m.z.x), hn::Mul(target_x, w_y));
+    const V yx = hn::Sub(column(m.x.y, gradient_x, m.z.y), hn::Mul(target_y, w_x));
+    const V yy = hn::Sub(column(m.y.y, gradient_y, m.z.y), hn::Mul(target_y, w_y));
+    const V determinant = hn::Sub(hn::Mul(xx, yy), hn::Mul(xy, yx));
+
+    // The box around the projected corners.
+    V low_x = set(kOutOfReachPx);
+    V low_y = low_x;
+    V high_x = set(-kOutOfReachPx);
+    V high_y = high_x;
+    auto in_front = hn::Gt(w, hn::Zero(d));
+    for (const auto* dx : {&list.left, &list.right}) {
+        for (const auto* dy : {&list.top, &list.bottom}) {
+            const V corner_x = load(*dx);
+            const V corner_y = load(*dy);
+            const V corner_w = hn::Add(hn::Add(w, hn::Mul(w_x, corner_x)), hn::Mul(w_y, corner_y));
+            in_front = hn::And(in_front, hn::Gt(corner_w, hn::Zero(d)));
+            const V scale = hn::Div(set(1.0F), corner_w);
+            const V place_x = hn::Add(target_x, hn::Mul(hn::Add(hn::Mul(xx, corner_x), hn::Mul(xy, corner_y)), scale));
+            const V place_y = hn::Add(target_y, hn::Mul(hn::Add(hn::Mul(yx, corner_x), hn::Mul(yy, corner_y)), scale));
+            low_x = hn::Min(low_x, place_x);
+            low_y = hn::Min(low_y, place_y);
+            high_x = hn::Max(high_x, place_x);
+            high_y = hn::Max(high_y, place_y);
+        }
+    }
+    for (std::uint32_t bits = bits_of(d, hn::AndNot(in_front, wanted)); bits != 0; bits &= bits - 1) {
+        behind.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctz(bits))));
+    }
+    const auto bounded = [&](V value, float low, float high) {
+        return hn::ConvertTo(di, hn::Min(hn::Max(value, set(low)), set(high)));
+    };
+    const auto width = static_cast<float>(band.width_px);
+    const auto band_begin = static_cast<float>(band.rows.begin);
+    const auto band_end = static_cast<float>(band.rows.end);
+    const auto x_begin = bounded(hn::Ceil(hn::Sub(low_x, half_px)), 0.0F, width);
+    const auto x_end = bounded(hn::Floor(hn::Add(high_x, half_px)), 0.0F, width);
+    const auto y_begin = bounded(hn::Ceil(hn::Sub(low_y, half_px)), band_begin, band_end);
+    const auto y_end = bounded(hn::Floor(hn::Add(high_y, half_px)), band_begin, band_end);
+    const auto not_empty = hn::And(hn::Lt(x_begin, x_end), hn::Lt(y_begin, y_end));
+    const auto faces_us = hn::Gt(determinant, hn::Mul(set(kSmallestArea), hn::Mul(w, w)));
+    const auto in_reach =
+        hn::And(hn::Lt(hn::Abs(target_x), set(kOutOfReachPx)), hn::Lt(hn::Abs(target_y), set(kOutOfReachPx)));
+    const auto visible =
+        hn::And(hn::And(wanted, hn::And(in_front, in_reach)), hn::And(faces_us, hn::RebindMask(d, not_empty)));
+    const std::uint32_t bits = bits_of(d, visible);
+    if (bits == 0) return 0;
+
+    const V scale = hn::Div(set(1.0F), determinant);
+    hn::Store(target_x, d, placed.target_x);
+    hn::Store(target_y, d, placed.target_y);
+    hn::Store(w, d, placed.w);
+    hn::Store(w_x, d, placed.w_x);
+    hn::Store(w_y, d, placed.w_y);
+    hn::Store(hn::Mul(yy, scale), d, placed.inverse_xx);
+    hn::Store(hn::Neg(hn::Mul(xy, scale)), d, placed.inverse_xy);
+    hn::Store(hn::Neg(hn::Mul(yx, scale)), d, placed.inverse_yx);
+    hn::Store(hn::Mul(xx, scale), d, placed.inverse_yy);
+    hn::Store(hn::Mul(set(m.depth_scale), inverse_w), d, placed.depth_factor);
+    hn::Store(x_begin, di, placed.x_begin);
+    hn::Store(x_end, di, placed.x_end);
+    hn::Store(y_begin, di, placed.y_begin);
+    hn::Store(y_end, di, placed.y_end);
+    return bits;
+}
+
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

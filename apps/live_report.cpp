@@ -51,8 +51,7 @@ LiveSummary summary_of(const LiveResult& result) {
         if (!refresh.presented) continue;
         warp.push_back(refresh.warp_time());
         wake_late.push_back(refresh.latched - refresh.planned_wake);
-        summary.bad_depth_pixels += refresh.counters.bad_depth;
-        summary.unknown_object_pixels += refresh.counters.unknown_object;
+        summary.left_out += refresh.counters;
     }
     summary.warp_ms = distribution_ms(warp);
     summary.wake_late_ms = distribution_ms(wake_late);
@@ -90,8 +89,12 @@ void describe_live_run(Report& report, const Options& options, const LiveResult&
     report.set("latency_ms/wake_up", summary.wake_late_ms);
     report.set("warp_ms", summary.warp_ms);
     report.set("scheduling", name_of(result.scheduling));
-    report.set("counters/bad_depth_pixels", summary.bad_depth_pixels);
-    report.set("counters/unknown_object_pixels", summary.unknown_object_pixels);
+    report.set("counters/bad_depth_pixels", summary.left_out.bad_depth);
+    report.set("counters/unknown_object_pixels", summary.left_out.unknown_object);
+    report.set("counters/tiles_empty", summary.left_out.tiles_empty);
+    report.set("counters/tiles_outside", summary.left_out.tiles_outside);
+    report.set("counters/tiles_hidden", summary.left_out.tiles_hidden);
+    report.set("counters/pictures_reused", summary.left_out.pictures_reused);
     report.set("counters/bad_head_poses", result.bad_head_poses);
     report.set("interrupted", result.interrupted);
 }

@@ -21,8 +21,7 @@ struct LiveSummary {
     std::optional<Distribution> warp_ms;       ///< method and fill, wall time
     std::optional<Distribution> wake_late_ms;  ///< from the planned wake to the latch
     std::optional<Distribution> draw_ms;       ///< the client, from sampling to publishing
-    std::uint64_t bad_depth_pixels = 0;
-    std::uint64_t unknown_object_pixels = 0;
+    WarpCounters left_out;                     ///< by all warps together
 };
 
 /// Pure.

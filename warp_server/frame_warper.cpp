@@ -1,5 +1,7 @@
 #include "warp_server/frame_warper.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "warp_server/methods/registry.h"
 
@@ -43,13 +45,35 @@ void FrameWarper::prepare(Layer& layer) const {
 
 const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarget& target) {
     LW_CHECK(!frame.layers.empty(), "a rendered frame has at least one layer");
+    if (is_made_of(frame, target)) {
+        counters_.pictures_reused = 1;
+        return display_frame_;
+    }
     method_->warp(*frame.layers.front(), target, display_frame_);
+    counters_ = method_->counters();
     for (std::size_t i = 1; i < frame.layers.size(); ++i) {
         method_->warp(*frame.layers[i], target, layer_frame_);
+        counters_ += method_->counters();
         merge_nearest(layer_frame_, display_frame_);
     }
     fill_->apply(display_frame_);
+    remember(frame, target);
     return display_frame_;
+}
+
+bool FrameWarper::is_made_of(const RenderedFrame& frame, const WarpTarget& target) const {
+    const auto same_layer = [](const std::weak_ptr<const Layer>& made, const std::shared_ptr<const Layer>& layer) {
+        return !made.owner_before(layer) && !layer.owner_before(made);
+    };
+    return std::equal(made_.layers.begin(), made_.layers.end(), frame.layers.begin(), frame.layers.end(), same_layer) &&
+           made_.camera == target.camera &&
+           std::equal(made_.movers.begin(), made_.movers.end(), target.movers.begin(), target.movers.end());
+}
+
+void FrameWarper::remember(const RenderedFrame& frame, const WarpTarget& target) {
+    made_.layers.assign(frame.layers.begin(), frame.layers.end());
+    made_.camera = target.camera;
+    made_.movers.assign(target.movers.begin(), target.movers.end());
 }
 
 }  // namespace lw

@@ -40,10 +40,25 @@ struct WarpTarget {
     std::span<const ObjectTransform> movers;  ///< placements at photon time; a missing one holds its source placement
 };
 
-/// Pixels that could not be used, by kind; they are skipped, never fatal.
+/// What one warp left out. Pixels that could not be used are skipped, never fatal; the rest was found not to be seen
+/// before it was drawn. Methods that do not work by tiles leave their counts at 0.
 struct WarpCounters {
-    std::uint64_t bad_depth = 0;       ///< NaN, infinite or outside [0, 1]
-    std::uint64_t unknown_object = 0;  ///< an id without a placement in the layer
+    std::uint64_t bad_depth = 0;        ///< pixels: NaN, infinite or outside [0, 1]
+    std::uint64_t unknown_object = 0;   ///< pixels: an id without a placement in the layer
+    std::uint64_t tiles_empty = 0;      ///< of objects without a placement, or seen from behind or edge-on
+    std::uint64_t tiles_outside = 0;    ///< land outside of the picture
+    std::uint64_t tiles_hidden = 0;     ///< land behind what is there; counted by each thread that met it
+    std::uint64_t pictures_reused = 0;  ///< 1: nothing had changed, the picture before is shown again
+
+    WarpCounters& operator+=(const WarpCounters& other) {
+        bad_depth += other.bad_depth;
+        unknown_object += other.unknown_object;
+        tiles_empty += other.tiles_empty;
+        tiles_outside += other.tiles_outside;
+        tiles_hidden += other.tiles_hidden;
+        pictures_reused += other.pictures_reused;
+        return *this;
+    }
 };
 
 /// A warp method with its settings and scratch memory. One thread at a time calls warp(); prepare() may run on another

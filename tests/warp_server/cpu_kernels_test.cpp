@@ -42,7 +42,7 @@ bool same_pixels(const DisplayFrame& a, const DisplayFrame& b) {
 }
 
 class VectorMethod : public ::testing::TestWithParam<std::string> {};
-INSTANTIATE_TEST_SUITE_P(All, VectorMethod, ::testing::Values("splat", "surface"));
+INSTANTIATE_TEST_SUITE_P(All, VectorMethod, ::testing::Values("splat", "surface", "inverse"));
 
 TEST_P(VectorMethod, EveryInstructionSetGivesTheSameBytes) {
     const AnalyticScene scene = AnalyticScene::street();
@@ -124,20 +124,41 @@ TEST(LinearColour, GivesEveryStoredColourBack) {
         const auto value = static_cast<std::uint8_t>(i);
         image.at(i, 0) = {value, static_cast<std::uint8_t>(255 - i), value, 255};
     }
-    const auto linear = linearise(image);
+    const LinearImage linear{image};
     for (int i = 0; i < 256; ++i) {
-        const std::uint64_t word = linear[static_cast<std::size_t>(i)];
-        EXPECT_EQ(srgb8_from_linear15(static_cast<std::int32_t>(word & 0xFFFFU), srgb_cubics()), i);
-        EXPECT_EQ(srgb8_from_linear15(static_cast<std::int32_t>(word >> 16U & 0xFFFFU), srgb_cubics()), 255 - i);
-        EXPECT_EQ(srgb8_from_linear15_table()[word >> 32U & 0xFFFFU], i);
+        const std::uint16_t* red = linear.data() + i;
+        EXPECT_EQ(srgb8_from_linear15(red[0], srgb_parabolas()), i);
+        EXPECT_EQ(srgb8_from_linear15(red[linear.channel_stride()], srgb_parabolas()), 255 - i);
+        EXPECT_EQ(srgb8_from_linear15_table()[red[2 * linear.channel_stride()]], i);
+    }
+}
+
+TEST(LinearColour, EveryInstructionSetGivesTheSameValuesWithZerosBehind) {
+    InstructionSets sets;
+    for (const int width : {1, 31, 32, 100}) {
+        ColourImage image{{width, 3}};
+        for (std::size_t i = 0; i < image.pixels().size(); ++i) {
+            const auto value = static_cast<std::uint8_t>(7 * i + 3);
+            image.pixels()[i] = {value, static_cast<std::uint8_t>(value + 90), static_cast<std::uint8_t>(~value), 255};
+        }
+        const LinearImage best{image};
+        const auto count =
+            static_cast<std::size_t>(best.row_stride()) * static_cast<std::size_t>(3 + LinearImage::kSpareRows);
+        for (const std::int64_t set : sets.all()) {
+            InstructionSets::use(set);
+            const LinearImage linear{image};
+            EXPECT_TRUE(std::equal(best.data(), best.data() + count, linear.data())) << hwy::TargetName(set);
+        }
+        EXPECT_EQ(best.data()[width], 0);
+        hwy::SetSupportedTargetsForTest(0);
     }
 }
 
 TEST(LinearColour, FollowsTheExactCurve) {
     for (int linear15 = 0; linear15 <= kLinearOne; ++linear15) {
         const double exact = 255.0 * srgb_from_linear(static_cast<double>(linear15) / kLinearOne);
-        // Half a step of rounding, and a tenth for the cubics.
-        ASSERT_NEAR(srgb8_from_linear15(linear15, srgb_cubics()), exact, 0.6) << linear15;
+        // Half a step of rounding, and a tenth for the parabolas.
+        ASSERT_NEAR(srgb8_from_linear15(linear15, srgb_parabolas()), exact, 0.6) << linear15;
     }
 }
 
@@ -164,11 +185,12 @@ TEST(SurfaceCells, CornersAreGroupedByTheirLinks) {
     }
 }
 
-TEST(SurfaceClassify, AWallIsOneBlockPerSquareAndHasNoEdges) {
+TEST(SurfaceClassify, AWallIsOneStripPerRowOfBlocksAndHasNoEdges) {
     const AnalyticScene scene = AnalyticScene::wall(3.0, 0.4);
     const Layer layer = scene.draw(street_camera({128, 128}), 0.0);
     const auto prepared = classify_surfaces(layer.cpu());
-    EXPECT_EQ(prepared->blocks.size(), 4U);
+    EXPECT_EQ(prepared->blocks.size(), 2U);
+    EXPECT_EQ(prepared->tiles.surfaces.size(), 0U);
     EXPECT_EQ(prepared->patches.size(), 0U);
     EXPECT_EQ(prepared->edges.size(), 0U);
 }

@@ -61,5 +61,43 @@ TEST(FrameWarper, OfSeveralLayersTheNearestSurfaceIsSeen) {
     }
 }
 
+TEST(FrameWarper, ShowsThePictureAgainOnlyWhenNothingChanged) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({48, 48});
+    const Camera target = moved(source, {0.05, 0.0, 0.0}, 2.0);
+    const std::vector<ObjectTransform> movers = scene.movers(0.1);
+    const std::vector<ObjectTransform> later = scene.movers(0.2);
+    const RenderedFrame frame = frame_with({shared(scene.draw(source, 0.0))});
+    const RenderedFrame newer = frame_with({shared(scene.draw(source, 0.05))});
+    for (const char* method : {"surface", "splat", "rotation"}) {
+        auto warper = FrameWarper::create(method, "nearest-background");
+        const auto reused_for = [&](const RenderedFrame& shown, const WarpTarget& where) {
+            const ColourImage picture = warper->warp(shown, where).colour;
+            auto fresh = FrameWarper::create(method, "nearest-background");
+            EXPECT_EQ(picture, fresh->warp(shown, where).colour) << method;
+            return warper->counters().pictures_reused != 0;
+        };
+        EXPECT_FALSE(reused_for(frame, {target, movers}));
+        EXPECT_TRUE(reused_for(frame, {target, movers}));
+        EXPECT_TRUE(reused_for(frame, {target, movers}));
+        EXPECT_FALSE(reused_for(frame, {target, later}));
+        EXPECT_FALSE(reused_for(frame, {moved(target, {0.0, 0.0, 0.0}, 0.1), later}));
+        EXPECT_FALSE(reused_for(newer, {moved(target, {0.0, 0.0, 0.0}, 0.1), later}));
+        EXPECT_TRUE(reused_for(newer, {moved(target, {0.0, 0.0, 0.0}, 0.1), later}));
+    }
+}
+
+TEST(FrameWarper, ALayerAtTheAddressOfAnOldOneIsAnotherLayer) {
+    const Camera camera = street_camera({8, 4});
+    auto warper = FrameWarper::create("splat", "none");
+    for (int i = 0; i < 8; ++i) {  // allocators like to give freed memory out again
+        Layer layer = indexed_layer(camera, 0.01F);
+        const auto red = static_cast<std::uint8_t>(i);
+        for (Rgba8& colour : layer.cpu().colour.pixels()) colour = {red, 0, 0, 255};
+        const RenderedFrame frame = frame_with({shared(std::move(layer))});
+        EXPECT_EQ(warper->warp(frame, {camera, {}}).colour.at(1, 1).r, red);
+    }
+}
+
 }  // namespace
 }  // namespace lw::test

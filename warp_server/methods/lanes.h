@@ -12,6 +12,20 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+
+/// After the parameters of a lambda whose vectors must stay in registers.
+#undef LW_INLINE_LAMBDA
+#define LW_INLINE_LAMBDA __attribute__((always_inline))
+
+/// 1 where vectors hold 64 bytes and a lookup may take its entries from two of them. This version of Highway has no
+/// name for such lookups, so those who use them write the instruction.
+#undef LW_HAS_WIDE_LOOKUPS
+#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
+#define LW_HAS_WIDE_LOOKUPS 1
+#else
+#define LW_HAS_WIDE_LOOKUPS 0
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
@@ -40,6 +54,14 @@ HWY_INLINE std::uint32_t bits_of(D d, M mask) {
         hn::StoreMaskBits(d, mask, &bits);
         return bits;
     }
+}
+
+/// The other way: a mask of the lanes whose bits are set.
+template <class D>
+HWY_INLINE hn::Mask<D> lanes_of_bits(D d, std::uint32_t bits) {
+    std::uint8_t bytes[8] = {};  // as many as Highway may read
+    std::memcpy(bytes, &bits, sizeof(bits));
+    return hn::LoadMaskBits(d, bytes);
 }
 
 }  // namespace lw::HWY_NAMESPACE

@@ -10,18 +10,18 @@ namespace lw {
 
 // The list of warp methods. To add one: a file with `MadeMethod make_ID_method(std::string, const MethodSettings&)`,
 // and a line here:  ID, name, needs GL, settings, one line for --help.
-#define LW_WARP_METHODS(METHOD)                                                                           \
-    METHOD(stale, "stale", false, "", "newest frame, unwarped")                                           \
-    METHOD(rotation, "rotation", false, "", "homography of the head's rotation, bilinear")                \
-    METHOD(points, "points", true, "size_px", "every pixel a GL point")                                   \
-    METHOD(mesh, "mesh", true, "", "a vertex per pixel, triangles between neighbours")                    \
-    METHOD(compute, "compute", true, "", "every pixel a point, in compute shaders")                       \
-    METHOD(inverse_gl, "inverse-gl", true, "steps", "the inverse search in a compute shader")             \
-    METHOD(surface_gl, "surface-gl", true, "", "surface, drawn by GL")                                    \
-    METHOD(splat, "splat", false, "threads", "every pixel a point, on the CPU")                           \
-    METHOD(inverse, "inverse", false, "steps", "search in the source for every target pixel, on the CPU") \
-    METHOD(surface, "surface", false, "threads",                                                          \
-           "surfaces placed by their pieces, colour solved on each; the default")                         \
+#define LW_WARP_METHODS(METHOD)                                                                                   \
+    METHOD(stale, "stale", false, "", "newest frame, unwarped")                                                   \
+    METHOD(rotation, "rotation", false, "", "homography of the head's rotation, bilinear")                        \
+    METHOD(points, "points", true, "size_px", "every pixel a GL point")                                           \
+    METHOD(mesh, "mesh", true, "", "a vertex per pixel, triangles between neighbours")                            \
+    METHOD(compute, "compute", true, "", "every pixel a point, in compute shaders")                               \
+    METHOD(inverse_gl, "inverse-gl", true, "steps", "the inverse search in a compute shader")                     \
+    METHOD(surface_gl, "surface-gl", true, "", "surface, drawn by GL")                                            \
+    METHOD(splat, "splat", false, "threads", "every pixel a point, on the CPU")                                   \
+    METHOD(inverse, "inverse", false, "steps,threads", "search in the source for every target pixel, on the CPU") \
+    METHOD(surface, "surface", false, "threads",                                                                  \
+           "surfaces placed by their pieces, colour solved on each; the default")                                 \
     METHOD(reference, "reference", false, "", "double precision, slow and obvious: the oracle of the tests")
 
 #define LW_DECLARE(id, ...) MadeMethod make_##id##_method(std::string label, const MethodSettings& settings);

@@ -23,9 +23,13 @@ public:
         canvas_.begin(out, band);
         draw_list(input, input.prepared->blocks);
         draw_list(input, input.prepared->patches);
+        draw_tile_list(input);
         draw_list(input, input.prepared->edges);
         canvas_.finish();
     }
+
+    /// Of the last picture.
+    [[nodiscard]] const SurfaceSkips& skips() const { return canvas_.skips(); }
 
 private:
     // Patches that reach behind the target eye are cut until their parts are before it, or are single cells.
@@ -35,6 +39,22 @@ private:
         if (behind_.empty()) return;
         parts_.clear();
         for (const std::uint32_t index : behind_) split_patch(list, index, parts_);
+        draw_parts(input);
+    }
+
+    void draw_tile_list(const PatchInput& input) {
+        behind_.clear();
+        draw_tiles(input, canvas_, behind_);
+        if (behind_.empty()) return;
+        parts_.clear();
+        edge_parts_.clear();
+        for (const std::uint32_t index : behind_) split_tile(input.prepared->tiles, index, parts_, edge_parts_);
+        draw_parts(input);
+        std::swap(parts_, edge_parts_);
+        draw_parts(input);
+    }
+
+    void draw_parts(const PatchInput& input) {
         while (parts_.size() > 0) {
             behind_.clear();
             draw_patches(input, parts_, canvas_, behind_);
@@ -48,6 +68,7 @@ private:
     std::vector<std::uint32_t> behind_;
     PatchList parts_;
     PatchList smaller_parts_;
+    PatchList edge_parts_;
 };
 
 class SurfaceMethod final : public WarpMethod {
@@ -74,7 +95,7 @@ public:
         }
         input_ = {static_cast<const PreparedSurface*>(prepared), &matrices_};
         matrices_.build(layer, target);
-        count_bad_pixels(*input_.prepared);
+        counters_ = bad_pixels(input_.prepared->id_counts, matrices_);
         out.resize(target.camera.size_px);
         if (matrices_.all_identity()) {
             copy_source(pixels, out);
@@ -83,6 +104,11 @@ public:
         out_ = &out;
         place_bands(layer.camera, target.camera);
         pool_.run(paint_band_);
+        for (const BandPainter& painter : painters_) {
+            counters_.tiles_empty += painter.skips().empty;
+            counters_.tiles_outside += painter.skips().outside;
+            counters_.tiles_hidden += painter.skips().hidden;
+        }
     }
 
 private:
@@ -101,17 +127,6 @@ private:
             const int previous = i == 0 ? 0 : bands_[static_cast<std::size_t>(i) - 1].end;
             const int end = usable ? std::clamp(static_cast<int>(place.y / place.z), previous, height) : previous;
             bands_[static_cast<std::size_t>(i)] = {previous, i + 1 == threads ? height : end};
-        }
-    }
-
-    void count_bad_pixels(const PreparedSurface& prepared) {
-        counters_ = {};
-        for (const IdCount& count : prepared.id_counts) {
-            if (matrices_.find(count.id) == nullptr) {
-                counters_.unknown_object += count.pixels;
-            } else {
-                counters_.bad_depth += count.bad_depths;
-            }
         }
     }
 

@@ -1,6 +1,7 @@
 #include "warp_server/methods/surface_canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 #include <tuple>
 
@@ -17,72 +18,139 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band) {
     first_index_ = static_cast<std::size_t>(band.begin) * width;
     const std::size_t count = static_cast<std::size_t>(band.end - band.begin) * width;
     std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
-    fragments_.clear();
-    touched_.clear();
-    if (newest_.size() != count) newest_.assign(count, -1);  // else finish() left it clear
+    fragment_count_ = 0;
+    skips_ = {};
+    newest_.fill(-1);
 }
 
 void SurfaceCanvas::finish() {
-    for (const std::uint32_t touched : touched_) composite(touched);
-    mark_coverage(frame_->depth.pixels().data() + first_index_, newest_.size(),
-                  frame_->coverage.pixels().data() + first_index_);
+    const auto width = static_cast<std::size_t>(frame_->depth.width());
+    const std::size_t count = static_cast<std::size_t>(band_.end - band_.begin) * width;
+    if (fragment_count_ > 0) {
+        sort_fragments(count);
+        const std::size_t stretches = stretch_begin_.size() - 1;
+        for (std::size_t i = 0; i < stretches; ++i) {
+            if (i + 1 < stretches) prefetch_stretch(i + 1);
+            composite_stretch(i);
+        }
+    }
+    mark_coverage(frame_->depth.pixels().data() + first_index_, count, frame_->coverage.pixels().data() + first_index_);
 }
 
-float SurfaceCanvas::sort_fragments(std::int32_t newest, float opaque_depth) {
-    const auto goes_before = [](const Fragment& a, const Fragment& b) {
+// By counting.
+void SurfaceCanvas::sort_fragments(std::size_t pixel_count) {
+    const std::size_t stretches = (pixel_count + kStretch - 1) >> kStretchBits;
+    const auto stretch_of = [&](const SurfaceFragment& fragment) {
+        return (fragment.pixel - first_index_) >> kStretchBits;
+    };
+    const std::span<const SurfaceFragment> fragments{fragments_.data(), fragment_count_};
+    stretch_begin_.assign(stretches + 1, 0);
+    for (const SurfaceFragment& fragment : fragments) ++stretch_begin_[stretch_of(fragment) + 1];
+    for (std::size_t i = 1; i <= stretches; ++i) stretch_begin_[i] += stretch_begin_[i - 1];
+    if (sorted_.size() < fragment_count_) sorted_.resize(fragments_.size());
+    for (const SurfaceFragment& fragment : fragments) sorted_[stretch_begin_[stretch_of(fragment)]++] = fragment;
+    // Each begin has moved on to its end, which is the next one's begin.
+    for (std::size_t i = stretches; i > 0; --i) stretch_begin_[i] = stretch_begin_[i - 1];
+    stretch_begin_[0] = 0;
+}
+
+// The picture there was last used long ago.
+void SurfaceCanvas::prefetch_stretch(std::size_t stretch) const {
+    for (std::size_t i = stretch_begin_[stretch]; i < stretch_begin_[stretch + 1]; ++i) {
+        __builtin_prefetch(frame_->depth.pixels().data() + sorted_[i].pixel, 1);
+        __builtin_prefetch(frame_->colour.pixels().data() + sorted_[i].pixel, 1);
+    }
+}
+
+void SurfaceCanvas::composite_stretch(std::size_t stretch) {
+    const std::size_t first = first_index_ + (stretch << kStretchBits);
+    touched_.clear();
+    for (std::size_t i = stretch_begin_[stretch]; i < stretch_begin_[stretch + 1]; ++i) {
+        const std::size_t pixel = sorted_[i].pixel - first;
+        if (newest_[pixel] < 0) touched_.push_back(static_cast<std::uint32_t>(pixel));
+        sorted_[i].next = newest_[pixel];
+        newest_[pixel] = static_cast<std::int32_t>(i);
+    }
+    const FragmentLists lists{sorted_, newest_.data(), frame_->depth.pixels().data() + first,
+                              frame_->colour.pixels().data() + first};
+    const std::size_t left = composite_fragments(lists, touched_);
+    for (std::size_t i = 0; i < left; ++i) {
+        composite(first + touched_[i]);
+        newest_[touched_[i]] = -1;
+    }
+}
+
+std::size_t SurfaceCanvas::count_fragments(std::int32_t newest, float opaque_depth) const {
+    std::size_t count = 0;
+    for (std::int32_t i = newest; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
+        if (!(sorted_[static_cast<std::size_t>(i)].depth < opaque_depth)) ++count;
+    }
+    return count;
+}
+
+// Sorts by insertion: there are two or three.
+void SurfaceCanvas::composite(std::size_t pixel) {
+    const float opaque_depth = frame_->depth.pixels()[pixel];
+    const std::int32_t newest = newest_[(pixel - first_index_) & (kStretch - 1)];
+    std::array<const SurfaceFragment*, kFewFragments> few_sorted;
+    const SurfaceFragment** sorted = few_sorted.data();
+    const std::size_t most = count_fragments(newest, opaque_depth);
+    if (most > kFewFragments) {
+        many_sorted_.resize(most);
+        sorted = many_sorted_.data();
+    }
+    const auto goes_before = [](const SurfaceFragment& a, const SurfaceFragment& b) {
         if (a.depth != b.depth) return a.depth > b.depth;
         return std::tie(a.coverage, a.linear.x, a.linear.y, a.linear.z) >
                std::tie(b.coverage, b.linear.x, b.linear.y, b.linear.z);
     };
-    sorted_.clear();
-    float covered = 0.0F;
-    for (std::int32_t i = newest; i >= 0; i = fragments_[static_cast<std::size_t>(i)].next) {
-        const Fragment& fragment = fragments_[static_cast<std::size_t>(i)];
+    std::size_t count = 0;
+    for (std::int32_t i = newest; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
+        const SurfaceFragment& fragment = sorted_[static_cast<std::size_t>(i)];
         if (fragment.depth < opaque_depth) continue;
-        covered += fragment.coverage;
-        sorted_.push_back(&fragment);  // insertion: there are two or three
-        for (std::size_t at = sorted_.size() - 1; at > 0 && goes_before(fragment, *sorted_[at - 1]); --at) {
-            std::swap(sorted_[at], sorted_[at - 1]);
-        }
+        std::size_t at = count++;
+        for (; at > 0 && goes_before(fragment, *sorted[at - 1]); --at) sorted[at] = sorted[at - 1];
+        sorted[at] = &fragment;
     }
-    return covered;
+    if (count == 0) return;
+    float covered = 0.0F;
+    for (std::size_t i = 0; i < count; ++i) covered += sorted[i]->coverage;
+    composite(pixel, {sorted, count}, covered);
 }
 
 // Nearest first, each over what is behind it; the farthest surface takes what is left, because the surfaces of one
 // place fill it together.
-void SurfaceCanvas::composite(std::size_t touched) {
-    const std::size_t pixel = first_index_ + touched;
+void SurfaceCanvas::composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted, float covered) {
     Rgba8& colour = frame_->colour.pixels()[pixel];
-    const float opaque_depth = frame_->depth.pixels()[pixel];
-    const bool has_opaque = opaque_depth >= 0.0F;
-    const float covered = sort_fragments(newest_[touched], opaque_depth);
-    newest_[touched] = -1;
-    if (sorted_.empty() || (!has_opaque && covered < 0.5F)) return;
+    float& depth = frame_->depth.pixels()[pixel];
+    const bool has_opaque = depth >= 0.0F;
+    if (!has_opaque && covered < 0.5F) return;
     glm::vec3 sum{0.0F};
     float left = 1.0F;
     float largest_share = 0.0F;
-    float depth = opaque_depth;
-    for (const Fragment* fragment : sorted_) {
-        const bool is_last = !has_opaque && fragment == sorted_.back();
-        const float share = is_last ? left : left * fragment->coverage;
-        sum += share * fragment->linear;
+    float shown_depth = depth;
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+        const bool is_last = !has_opaque && i + 1 == sorted.size();
+        const float share = is_last ? left : left * sorted[i]->coverage;
+        sum += share * sorted[i]->linear;
         left -= share;
         if (share > largest_share) {
             largest_share = share;
-            depth = fragment->depth;
+            shown_depth = sorted[i]->depth;
         }
     }
     if (has_opaque) {
         const std::array<float, 256>& linear = linear_from_srgb8_table();
         sum += left * static_cast<float>(kLinearOne) * glm::vec3{linear[colour.r], linear[colour.g], linear[colour.b]};
-        if (left >= largest_share) depth = opaque_depth;
+        if (left >= largest_share) shown_depth = depth;
     }
-    const std::array<std::uint8_t, kLinearOne + 1>& encode = srgb8_from_linear15_table();
+    const SrgbParabolas& parabolas = srgb_parabolas();
     const auto encoded = [&](float linear) {
-        return encode[static_cast<std::size_t>(std::clamp(linear + 0.5F, 0.0F, static_cast<float>(kLinearOne)))];
+        const float bounded = std::clamp(linear + 0.5F, 0.0F, static_cast<float>(kLinearOne));
+        return srgb8_from_linear15(static_cast<std::int32_t>(bounded), parabolas);
     };
     colour = {encoded(sum.x), encoded(sum.y), encoded(sum.z), 255};
-    frame_->depth.pixels()[pixel] = depth;
+    depth = shown_depth;
 }
 
 }  // namespace lw

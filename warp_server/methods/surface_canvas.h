@@ -2,14 +2,24 @@
 /// What `surface` draws into: opaque pixels with a depth test, and partly covering fragments along edges, put together
 /// at the end.
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "warp_server/methods/row_range.h"
+#include "warp_server/methods/surface_composite.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
+
+/// Patches and tiles found not to be seen before they were drawn.
+struct SurfaceSkips {
+    std::uint64_t empty = 0;    ///< their object has no placement, or they show their back
+    std::uint64_t outside = 0;  ///< of the picture
+    std::uint64_t hidden = 0;   ///< behind what was there, in this band
+};
 
 /// Draws a band of rows of one display frame. One thread per canvas; canvases of one frame have bands of their own.
 class SurfaceCanvas {
@@ -19,40 +29,53 @@ public:
 
     [[nodiscard]] DisplayFrame& frame() const { return *frame_; }
     [[nodiscard]] RowRange band() const { return band_; }
+    /// Since begin().
+    [[nodiscard]] SurfaceSkips& skips() { return skips_; }
+    [[nodiscard]] const SurfaceSkips& skips() const { return skips_; }
 
-    /// A surface that covers a share of pixel `index`, which must be in the band.
+    /// Makes room for `count` more fragments.
+    void reserve_fragments(std::size_t count) {
+        if (fragments_.size() < fragment_count_ + count) fragments_.resize(2 * (fragment_count_ + count));
+    }
+
+    /// A surface that covers a share of pixel `index`, which must be in the band. There must be room.
     /// @param coverage  in (0, 1]
     /// @param linear    its colour in linear light, 0 to kLinearOne
     void put_fragment(std::size_t index, float depth, float coverage, const glm::vec3& linear) {
-        std::int32_t& newest = newest_[index - first_index_];
-        if (newest < 0) touched_.push_back(static_cast<std::uint32_t>(index - first_index_));
-        fragments_.push_back({linear, depth, coverage, newest});
-        newest = static_cast<std::int32_t>(fragments_.size()) - 1;
+        fragments_[fragment_count_++] = {linear, depth, coverage, -1, static_cast<std::uint32_t>(index)};
     }
 
     /// Puts fragments over what is opaque and marks coverage. A pixel of which less than half is covered is a hole.
     void finish();
 
 private:
-    struct Fragment {
-        glm::vec3 linear;  // 0 to kLinearOne
-        float depth;
-        float coverage;
-        std::int32_t next;  // index of the pixel's fragment before, or -1
-    };
     static constexpr int kNothingByte = 0xBF;  // four of them make the float -1.498: farther than every depth
 
-    void composite(std::size_t touched);
-    // The fragments of a pixel that are not behind `opaque_depth`, nearest first, into sorted_; returns their coverage.
-    float sort_fragments(std::int32_t newest, float opaque_depth);
+    static constexpr std::size_t kFewFragments = 8;
+    // Fragments are sorted by stretches of this many pixels, whose lists and picture fit a cache.
+    static constexpr unsigned kStretchBits = 10;
+    static constexpr std::size_t kStretch = std::size_t{1} << kStretchBits;
+
+    void sort_fragments(std::size_t pixel_count);
+    void prefetch_stretch(std::size_t stretch) const;
+    void composite_stretch(std::size_t stretch);
+    // One pixel with any number of fragments, as composite_fragments has it.
+    void composite(std::size_t pixel);
+    // The same with the pixel's fragments, nearest first.
+    void composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted, float covered);
+    [[nodiscard]] std::size_t count_fragments(std::int32_t newest, float opaque_depth) const;
 
     DisplayFrame* frame_ = nullptr;
     RowRange band_;
-    std::size_t first_index_ = 0;  // of the band's first pixel
-    std::vector<Fragment> fragments_;
-    std::vector<std::int32_t> newest_;    // of each pixel of the band: its newest fragment, or -1
-    std::vector<std::uint32_t> touched_;  // pixels with fragments, relative to the band
-    std::vector<const Fragment*> sorted_;
+    SurfaceSkips skips_;
+    std::size_t first_index_ = 0;             // of the band's first pixel
+    std::vector<SurfaceFragment> fragments_;  // as they came: the first fragment_count_ of them
+    std::size_t fragment_count_ = 0;
+    std::vector<SurfaceFragment> sorted_;          // by stretches, in the order they came within each
+    std::vector<std::uint32_t> stretch_begin_;     // of each stretch its first in sorted_, and one more
+    std::array<std::int32_t, kStretch> newest_{};  // of each pixel of a stretch: its newest fragment, or -1
+    std::vector<std::uint32_t> touched_;           // pixels of a stretch that have fragments
+    std::vector<const SurfaceFragment*> many_sorted_;
 };
 
 }  // namespace lw

@@ -6,31 +6,19 @@
 #include <cstring>
 
 #include "core/colour.h"
-#include "warp_server/methods/linear_colour.h"
 #include "warp_server/methods/object_matrices.h"
-#include "warp_server/methods/surface_cells.h"
 #include "warp_server/methods/surface_links.h"
+#include "warp_server/methods/surface_tiles.h"
 #include "warp_server/methods/surface_tolerances.h"
+#include "warp_server/methods/surface_writer.h"
 
 namespace lw {
 namespace {
 
-// Patches grow from single cells to squares of this many cells by powers of two; larger ones save little.
+// Patches grow from single cells to squares of this many cells by powers of two, and those to strips.
 constexpr int kLargestPatch = 64;
 // Where looking for planes starts: most blocks of this size are one plane in man-made scenes.
-constexpr int kFirstBlock = 8;
-
-// Depth over a block, at the centre of its first pixel.
-struct BlockPlane {
-    ObjectId id = 0;
-    float depth = 0.0F;
-    float gradient_x = 0.0F;
-    float gradient_y = 0.0F;
-
-    [[nodiscard]] float at(int dx, int dy) const {
-        return depth + static_cast<float>(dx) * gradient_x + static_cast<float>(dy) * gradient_y;
-    }
-};
+constexpr int kFirstBlock = kTileSize;
 
 bool depths_agree(float depth, float expected) { return std::abs(depth - expected) <= kPlaneDepthPart * depth; }
 
@@ -38,14 +26,19 @@ bool depths_agree(float depth, float expected) { return std::abs(depth - expecte
 class PatchBuilder {
 public:
     PatchBuilder(const SurfaceLinks& links, PreparedSurface& out)
-        : links_{&links}, out_{&out}, size_px_{links.size_px()} {}
+        : links_{&links}, out_{&out}, size_px_{links.size_px()}, writer_{links}, tiles_{links, out} {}
 
     void build() {
         for (int y = 0; y < size_px_.y; y += kLargestPatch) {
             for (int x = 0; x < size_px_.x; x += kLargestPatch) {
                 BlockPlane plane;
-                if (merge_block(x, y, kLargestPatch, plane)) add_patch(x, y, kLargestPatch, plane);
+                if (merge_block(x, y, kLargestPatch, plane)) {
+                    extend_strip(x, y, plane);
+                } else {
+                    add_strip();
+                }
             }
+            add_strip();
         }
     }
 
@@ -66,7 +59,7 @@ private:
             whole[i] = merge_block(child_x, child_y, half, planes[i]);
             all_whole = all_whole && whole[i];
         }
-        plane = plane_through_corners(x, y, size);
+        plane = plane_through_corners(x, y, {size, size});
         if (all_whole && children_agree(x, y, half, exists, planes, plane)) return true;
         for (std::size_t i = 0; i < 4; ++i) {
             const int child_x = x + ((i & 1U) != 0 ? half : 0);
@@ -76,9 +69,38 @@ private:
         return false;
     }
 
-    [[nodiscard]] BlockPlane plane_through_corners(int x0, int y0, int size) const {
-        const int x1 = std::min(x0 + size, size_px_.x - 1);
-        const int y1 = std::min(y0 + size, size_px_.y - 1);
+    // Blocks of the largest size in a row on one plane become one strip: long rows are drawn faster than short ones.
+    void extend_strip(int x, int y, const BlockPlane& plane) {
+        strip_parts_.push_back(plane);
+        const int begin = strip_parts_.size() == 1 ? x : strip_x_;
+        const BlockPlane longer = plane_through_corners(begin, y, {x + kLargestPatch - begin, kLargestPatch});
+        for (std::size_t i = 0; i < strip_parts_.size(); ++i) {
+            if (agrees(strip_parts_[i], longer, begin, y, {static_cast<int>(i) * kLargestPatch, 0}, kLargestPatch))
+                continue;
+            strip_parts_.pop_back();
+            add_strip();
+            strip_parts_.push_back(plane);
+            break;
+        }
+        if (strip_parts_.size() == 1) {
+            strip_x_ = x;
+            strip_y_ = y;
+            strip_plane_ = plane;
+        } else {
+            strip_plane_ = longer;
+        }
+    }
+
+    void add_strip() {
+        if (strip_parts_.empty()) return;
+        const int columns = static_cast<int>(strip_parts_.size()) * kLargestPatch;
+        writer_.add(out_->blocks, strip_x_, strip_y_, {columns, kLargestPatch}, strip_plane_, kAllCorners);
+        strip_parts_.clear();
+    }
+
+    [[nodiscard]] BlockPlane plane_through_corners(int x0, int y0, glm::ivec2 size) const {
+        const int x1 = std::min(x0 + size.x, size_px_.x - 1);
+        const int y1 = std::min(y0 + size.y, size_px_.y - 1);
         BlockPlane plane;
         plane.id = links_->pixels().object_id.at(x0, y0);
         plane.depth = links_->depth_of(plane.id, x0, y0);
@@ -95,25 +117,33 @@ private:
             if (!exists[i]) continue;
             const int dx = (i & 1U) != 0 ? half : 0;
             const int dy = (i & 2U) != 0 ? half : 0;
-            if (planes[i].id != plane.id) return false;
-            const int reach_x = std::min(half, size_px_.x - 1 - x - dx);
-            const int reach_y = std::min(half, size_px_.y - 1 - y - dy);
-            const bool agree = depths_agree(planes[i].at(0, 0), plane.at(dx, dy)) &&
-                               depths_agree(planes[i].at(reach_x, 0), plane.at(dx + reach_x, dy)) &&
-                               depths_agree(planes[i].at(0, reach_y), plane.at(dx, dy + reach_y)) &&
-                               depths_agree(planes[i].at(reach_x, reach_y), plane.at(dx + reach_x, dy + reach_y));
-            if (!agree) return false;
+            if (!agrees(planes[i], plane, x, y, {dx, dy}, half)) return false;
         }
         return true;
     }
 
+    // Does the plane of a part, `offset` into the block at (x, y), lie on that of the block?
+    [[nodiscard]] bool agrees(const BlockPlane& part, const BlockPlane& plane, int x, int y, glm::ivec2 offset,
+                              int size) const {
+        if (part.id != plane.id) return false;
+        const glm::ivec2 reach = glm::min(glm::ivec2{size}, size_px_ - 1 - glm::ivec2{x, y} - offset);
+        const auto agree_at = [&](int dx, int dy) {
+            return depths_agree(part.at(dx, dy), plane.at(offset.x + dx, offset.y + dy));
+        };
+        return agree_at(0, 0) && agree_at(reach.x, 0) && agree_at(0, reach.y) && agree_at(reach.x, reach.y);
+    }
+
     bool plane_or_parts(int x, int y, int size, BlockPlane& plane) {
         if (size == 1) {
-            add_cell(x, y);
+            writer_.add_cell_surface(out_->patches, x, y, kAllCorners);
             return false;
         }
-        plane = plane_through_corners(x, y, size);
+        plane = plane_through_corners(x, y, {size, size});
         if (is_plane(x, y, size, plane)) return true;
+        if (size == kTileSize && !is_all_linked(x, y, size)) {
+            tiles_.build(x, y);
+            return false;
+        }
         const int half = size / 2;
         for (const int child_y : {y, y + half}) {
             for (const int child_x : {x, x + half}) {
@@ -132,86 +162,36 @@ private:
                               {x, y, columns, rows, plane.id, plane.depth, plane.gradient_x, plane.gradient_y});
     }
 
-    void add_cell(int x, int y) {
-        if (joins_all_corners(links_->sides(x, y))) {
-            add_cell_surface(out_->patches, x, y, kAllCorners);
-            return;
+    // Does no surface meet another in the block?
+    [[nodiscard]] bool is_all_linked(int x, int y, int size) const {
+        for (int row = y; row < std::min(y + size, size_px_.y); ++row) {
+            for (int column = x; column < std::min(x + size, size_px_.x); ++column) {
+                if (!joins_all_corners(links_->sides(column, row))) return false;
+            }
         }
-        const CornerGroups& groups = corner_groups(links_->all_links(x, y));
-        for (int i = 0; i < groups.count; ++i) {
-            const std::uint8_t corners = groups.corners[static_cast<std::size_t>(i)];
-            add_cell_surface(corners == kAllCorners ? out_->patches : out_->edges, x, y, corners);
-        }
-    }
-
-    void add_cell_surface(PatchList& list, int x, int y, std::uint8_t corners) {
-        CellSurface surface;
-        if (!cell_surface(*links_, x, y, corners, surface)) return;
-        add(list, x, y, 1, {surface.object_id, surface.depth, surface.gradient_x, surface.gradient_y}, corners);
+        return true;
     }
 
     void add_patch(int x, int y, int size, const BlockPlane& plane) {
         // Apart, because writes of many pixels at once and of single ones hold each other up when they alternate.
-        add(size >= kFirstBlock ? out_->blocks : out_->patches, x, y, size, plane, kAllCorners);
-    }
-
-    // Patches at the rim of the image reach half a pixel further, to the image's edge; the last cells half as far.
-    void add(PatchList& list, int x, int y, int size, const BlockPlane& plane, std::uint8_t corners) const {
-        const float overlap = corners == kAllCorners ? kPatchOverlapPx : kEdgeOverlapPx;
-        const int columns = std::min(size, size_px_.x - x);
-        const int rows = std::min(size, size_px_.y - y);
-        list.x.push_back(static_cast<float>(x));
-        list.y.push_back(static_cast<float>(y));
-        list.depth.push_back(plane.depth);
-        list.gradient_x.push_back(plane.gradient_x);
-        list.gradient_y.push_back(plane.gradient_y);
-        list.left.push_back(x == 0 ? -0.5F : -overlap);
-        list.top.push_back(y == 0 ? -0.5F : -overlap);
-        list.right.push_back(static_cast<float>(columns) + (x + columns == size_px_.x ? -0.5F : overlap));
-        list.bottom.push_back(static_cast<float>(rows) + (y + rows == size_px_.y ? -0.5F : overlap));
-        list.object_id.push_back(plane.id);
-        list.corners.push_back(corners);
+        writer_.add(size >= kFirstBlock ? out_->blocks : out_->patches, x, y, {size, size}, plane, kAllCorners);
     }
 
     const SurfaceLinks* links_;
     PreparedSurface* out_;
     glm::ivec2 size_px_;
+    PatchWriter writer_;
+    TileBuilder tiles_;
+    std::vector<BlockPlane> strip_parts_;  // blocks of the strip so far, from the left
+    BlockPlane strip_plane_;
+    int strip_x_ = 0;
+    int strip_y_ = 0;
 };
-
-// Pixels and bad depths by id. Most rows are of one object and have no bad depth.
-void count_ids(const CpuPixels& pixels, const SurfaceLinks& links, std::vector<IdCount>& counts) {
-    std::vector<IdCount> by_id(1);
-    const auto width = static_cast<std::size_t>(pixels.depth.width());
-    for (int y = 0; y < pixels.depth.height(); ++y) {
-        const std::span<const ObjectId> ids = pixels.object_id.row(y);
-        const std::span<const float> depths = pixels.depth.row(y);
-        for (std::size_t x = 0; x < width;) {
-            // A row equals itself shifted by one pixel when all of it is the same.
-            const bool all_same =
-                x == 0 && std::memcmp(ids.data(), ids.data() + 1, (width - 1) * sizeof(ObjectId)) == 0;
-            std::size_t end = all_same ? width : x + 1;
-            while (end < width && ids[end] == ids[x]) ++end;
-            if (ids[x] >= by_id.size()) by_id.resize(std::size_t{ids[x]} + 1);
-            IdCount& count = by_id[ids[x]];
-            count.pixels += end - x;
-            if (links.has_bad_depth(y)) {
-                count.bad_depths += static_cast<std::uint64_t>(std::count_if(
-                    depths.begin() + static_cast<std::ptrdiff_t>(x), depths.begin() + static_cast<std::ptrdiff_t>(end),
-                    [](float depth) { return !is_usable_depth(depth); }));
-            }
-            x = end;
-        }
-    }
-    for (std::size_t id = 0; id < by_id.size(); ++id) {
-        if (by_id[id].pixels == 0) continue;
-        counts.push_back(by_id[id]);
-        counts.back().id = static_cast<ObjectId>(id);
-    }
-}
 
 // In pixels of a large block; measured. Small patches cost by their number, not by their size.
 constexpr float kCostPerPatch = 6.0F;
 constexpr float kCostPerEdge = 12.0F;
+constexpr float kCostPerTile = 40.0F;
 
 std::vector<float> accumulated_costs(const PreparedSurface& prepared) {
     std::vector<float> until(static_cast<std::size_t>(prepared.size_px.y) + 1, 0.0F);
@@ -226,6 +206,7 @@ std::vector<float> accumulated_costs(const PreparedSurface& prepared) {
     };
     add(prepared.blocks, kCostPerPatch);
     add(prepared.patches, kCostPerPatch);
+    add(prepared.tiles.surfaces, kCostPerTile);
     add(prepared.edges, kCostPerEdge);
     for (std::size_t y = 1; y < until.size(); ++y) until[y] += until[y - 1];
     return until;
@@ -235,13 +216,13 @@ std::vector<float> accumulated_costs(const PreparedSurface& prepared) {
 
 void PatchList::clear() { *this = {}; }
 
-std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels) {
+std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, SurfaceUse use) {
     auto prepared = std::make_shared<PreparedSurface>();
     prepared->size_px = pixels.depth.size_px();
     const SurfaceLinks links{pixels};
     PatchBuilder{links, *prepared}.build();
-    prepared->linear_colours = linearise(pixels.colour);
-    count_ids(pixels, links, prepared->id_counts);
+    if (use == SurfaceUse::cpu_kernels) prepared->linear = LinearImage{pixels.colour};
+    prepared->id_counts = count_ids(pixels);
     prepared->cost_until = accumulated_costs(*prepared);
     return prepared;
 }

@@ -8,6 +8,8 @@
 #include "core/image.h"
 #include "core/object_transform.h"
 #include "frame_link/rendered_frame.h"
+#include "warp_server/methods/id_counts.h"
+#include "warp_server/methods/linear_colour.h"
 
 namespace lw {
 
@@ -34,27 +36,41 @@ struct PatchList {
 };
 inline constexpr std::uint8_t kAllCorners = 15;
 
-/// Pixels of one object id in a layer.
-struct IdCount {
-    ObjectId id = 0;
-    std::uint64_t pixels = 0;
-    std::uint64_t bad_depths = 0;
+/// Squares of this many cells in which surfaces meet.
+inline constexpr int kTileSize = 8;
+
+/// What lies in those squares, one entry per surface that has a plane there: a patch that holds all of its cells, and
+/// which they are.
+struct SurfaceTiles {
+    PatchList surfaces;                ///< origins at the tiles' first cells; `corners` says nothing
+    std::vector<std::uint32_t> cells;  ///< kTileSize rows each; of the cell in column c, 4 c bits up, its corners
+    /// Where the edge cells of the tile end, relative to the origin: they overlap other tiles' less than whole cells.
+    std::vector<float> edge_left;
+    std::vector<float> edge_right;
+    std::vector<float> edge_top;
+    std::vector<float> edge_bottom;
 };
 
 struct PreparedSurface final : PreparedLayer {
     glm::ivec2 size_px{0};
-    PatchList blocks;   ///< large patches; they and the small ones cover their target pixels wholly
-    PatchList patches;  ///< small ones: where surfaces are curved, and around edges
-    PatchList edges;    ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
-    /// Colours in linear light, 15 bits each in 16: red lowest. One more row and a few more pixels than the image, so
-    /// that a bilinear read at its last pixel stays inside.
-    std::unique_ptr<std::uint64_t[]> linear_colours;
+    PatchList blocks;    ///< large patches; they and the small ones cover their target pixels wholly
+    PatchList patches;   ///< small ones: where surfaces are curved, and around edges
+    SurfaceTiles tiles;  ///< edges between planes, and what lies around them
+    PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
+    LinearImage linear;
     std::vector<IdCount> id_counts;  ///< by ascending id
     std::vector<float> cost_until;   ///< estimated cost of drawing all patches before each source row, and of all
 };
 
+/// What will draw the surfaces.
+enum class SurfaceUse {
+    cpu_kernels,  ///< wants `linear`
+    gl,           ///< has textures
+};
+
 /// Any thread. `pixels` may hold bad depths: they are on no surface.
-[[nodiscard]] std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels);
+[[nodiscard]] std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels,
+                                                                       SurfaceUse use = SurfaceUse::cpu_kernels);
 
 /// Depths `before, a, b, after` along a line: do a and b lie on one surface? Their difference must be small, or
 /// continue the slope on one side: depth is affine in the pixel coordinates on every plane, at any slant. Negative

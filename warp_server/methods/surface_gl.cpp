@@ -15,6 +15,7 @@
 #include "warp_server/methods/gl_source.h"
 #include "warp_server/methods/gl_target.h"
 #include "warp_server/methods/surface_classify.h"
+#include "warp_server/methods/surface_split.h"
 
 namespace lw {
 namespace {
@@ -116,14 +117,22 @@ public:
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         const auto* textures = std::get_if<TexturePixels>(&layer.pixels);
-        const auto surface = textures != nullptr ? classify_surfaces(downloaded(*textures))
-                                                 : classify_surfaces(checked_cpu_pixels(layer));
+        const auto surface = textures != nullptr ? classify_surfaces(downloaded(*textures), SurfaceUse::gl)
+                                                 : classify_surfaces(checked_cpu_pixels(layer), SurfaceUse::gl);
         auto prepared = std::make_shared<PreparedGlSurface>();
         prepared->number = ++prepared_count_;
-        prepared->patches.reserve(surface->blocks.size() + surface->patches.size() + surface->edges.size());
+        PatchList whole_cells;
+        PatchList edge_cells;
+        for (std::size_t i = 0; i < surface->tiles.surfaces.size(); ++i) {
+            split_tile(surface->tiles, i, whole_cells, edge_cells);
+        }
+        prepared->patches.reserve(surface->blocks.size() + surface->patches.size() + whole_cells.size() +
+                                  edge_cells.size() + surface->edges.size());
         append(surface->blocks, prepared->patches);
         append(surface->patches, prepared->patches);
+        append(whole_cells, prepared->patches);
         prepared->whole_count = prepared->patches.size();
+        append(edge_cells, prepared->patches);
         append(surface->edges, prepared->patches);
         prepared->id_counts = surface->id_counts;
         return prepared;
@@ -138,7 +147,7 @@ public:
         }
         const auto& prepared = static_cast<const PreparedGlSurface&>(*known);
         source_.bind(layer, target);
-        count_bad_pixels(prepared.id_counts);
+        counters_ = bad_pixels(prepared.id_counts, source_.matrices());
         upload(prepared);
         do {
             lists_.begin(target.camera.size_px);
@@ -149,17 +158,6 @@ public:
     }
 
 private:
-    void count_bad_pixels(const std::vector<IdCount>& id_counts) {
-        counters_ = {};
-        for (const IdCount& count : id_counts) {
-            if (source_.matrices().find(count.id) == nullptr) {
-                counters_.unknown_object += count.pixels;
-            } else {
-                counters_.bad_depth += count.bad_depths;
-            }
-        }
-    }
-
     void upload(const PreparedGlSurface& prepared) {
         if (prepared.number != uploaded_) {
             uploaded_ = prepared.number;

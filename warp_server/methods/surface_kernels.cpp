@@ -8,24 +8,29 @@
 
 #include <algorithm>
 #include <type_traits>
+#include <vector>
 
 #include "warp_server/methods/lanes.h"
-#include "warp_server/methods/surface_fragments.h"
 #include "warp_server/methods/surface_placing.h"
+#include "warp_server/methods/surface_queues.h"
 #include "warp_server/methods/surface_sampling.h"
 #include "warp_server/methods/surface_solving.h"
+#include "warp_server/methods/surface_tolerances.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
 
-constexpr int kSmallBoxPx = 3;  // a cell's box is one to three pixels wide unless it is magnified
+constexpr int kPrefetchRows = 3;   // blocks are narrow, so that the next rows come before this row's next lines
+constexpr int kFewColumnsPx = 12;  // fewer are drawn row by row no faster than one by one
+constexpr int kLongRowPx = 64;     // from here on finding out where a row begins and ends pays
+constexpr int kSmallBoxPx = 3;     // a cell's box is one to three pixels wide unless it is magnified
 
 // Within a narrow box of target pixels, lanes run over several of its rows: lane k of a box w wide is at (k % w, k /
 // w).
 struct LaneOffsets {
-    float x[kMaxLanes + 1][kMaxLanes];
-    float y[kMaxLanes + 1][kMaxLanes];
+    HWY_ALIGN float x[kMaxLanes + 1][kMaxLanes];
+    HWY_ALIGN float y[kMaxLanes + 1][kMaxLanes];
 };
 
 const LaneOffsets& lane_offsets() {
@@ -42,62 +47,136 @@ const LaneOffsets& lane_offsets() {
     return offsets;
 }
 
+// The cells of a tile's surface (SurfaceTiles).
+struct TileCells {
+    const std::uint32_t* rows;
+
+    [[nodiscard]] HWY_INLINE hn::VFromD<DI> corners(hn::VFromD<DI> column, hn::VFromD<DI> row) const {
+#if LW_HAS_WIDE_LOOKUPS
+        const hn::VFromD<DI> all{_mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(rows)))};
+        const auto cells = hn::TableLookupLanes(all, hn::IndicesFromVec(DI{}, row));
+#else
+        const auto cells = hn::GatherIndex(DI{}, reinterpret_cast<const std::int32_t*>(rows), row);
+#endif
+        const auto shift = hn::BitCast(DU{}, hn::ShiftLeft<2>(column));
+        return hn::And(hn::BitCast(DI{}, hn::Shr(hn::BitCast(DU{}, cells), shift)), hn::Set(DI{}, kAllCorners));
+    }
+};
+
 class Painter {
 public:
-    Painter(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind)
+    Painter(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind)
         : input_{input},
-          list_{list},
-          canvas_{canvas},
           behind_{behind},
-          reader_{input.prepared->linear_colours.get(), input.prepared->size_px},
-          fragments_{*input.prepared, list, canvas},
+          reader_{input.prepared->linear},
+          runs_{reader_, encoder_, canvas.frame()},
+          queue_{reader_, encoder_, runs_, canvas.frame()},
+          fragments_{reader_, input.prepared->size_px, canvas},
           target_width_{canvas.frame().depth.width()},
-          band_{target_width_, canvas.band()},
-          depths_{canvas.frame().depth.pixels().data()},
-          colours_{canvas.frame().colour.pixels().data()} {}
+          band_{target_width_, canvas.frame().depth.height(), canvas.band()},
+          skips_{canvas.skips()},
+          depths_{canvas.frame().depth.pixels().data()} {}
 
-    void paint() {
-        const hn::ScalableTag<float> d;
-        const hn::CappedTag<float, 1> d1;
-        const std::size_t lanes = hn::Lanes(d);
-        std::size_t i = 0;
-        for (; i + lanes <= list_.size(); i += lanes) paint_some(d, i);
-        for (; i < list_.size(); ++i) paint_some(d1, i);
-    }
-
-private:
-    // Lanes(d) patches: places them all at once, object by object, then paints one after the other.
-    template <class D>
-    HWY_INLINE void paint_some(D d, std::size_t first) {
-        const hn::RebindToUnsigned<D> du;
-        const hn::Rebind<std::uint16_t, D> d16;
-        const auto ids = hn::PromoteTo(du, hn::LoadU(d16, list_.object_id.data() + first));
-        auto remaining = hn::Eq(hn::Zero(d), hn::Zero(d));
-        while (!hn::AllFalse(d, remaining)) {
-            const ObjectId id = list_.object_id[first + static_cast<std::size_t>(hn::FindFirstTrue(d, remaining))];
-            const auto same = hn::RebindMask(d, hn::Eq(ids, hn::Set(du, std::uint32_t{id})));
-            const auto group = hn::And(remaining, same);
-            remaining = hn::AndNot(same, remaining);
-            const PixelMatrix* matrix = input_.matrices->find(id);
-            if (matrix == nullptr) continue;
-            PlacedPatches placed;
-            std::uint32_t bits = place_patches(d, list_, first, *matrix, group, band_, placed, behind_);
-            if (bits == 0) continue;
-            if constexpr (std::is_same_v<D, DF>) {
+    void paint_patches(const PatchList& list) {
+        const auto paint = [&](std::size_t first, std::uint32_t bits, const PlacedPatches& placed, auto d) {
+            if constexpr (std::is_same_v<decltype(d), DF>) {
                 const std::uint32_t small = small_boxes(bits, placed);
-                if (small != 0) paint_small(first, small, placed);
+                if (small != 0) paint_small(list, first, small, placed);
                 bits &= ~small;
             }
             for (; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
-                paint_one(first + lane, lane, placed);
+                if (is_hidden(lane, placed)) {
+                    ++skips_.hidden;
+                } else {
+                    paint_one(list, first + lane, lane, placed);
+                }
             }
+        };
+        place_all(list, paint);
+        queue_.flush();
+        fragments_.flush();
+    }
+
+    void paint_tiles(const SurfaceTiles& tiles) {
+        const auto paint = [&](std::size_t first, std::uint32_t bits, const PlacedPatches& placed, auto) {
+            for (; bits != 0; bits &= bits - 1) {
+                const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+                if (is_hidden(lane, placed)) {
+                    ++skips_.hidden;
+                } else {
+                    paint_tile(tiles, first + lane, lane, placed);
+                }
+            }
+        };
+        place_all(tiles.surfaces, paint);
+        queue_.flush();
+        fragments_.flush();
+    }
+
+private:
+    // As many patches at once as there are lanes; `paint` gets those that have pixels here, object by object.
+    template <class Paint>
+    HWY_INLINE void place_all(const PatchList& list, const Paint& paint) {
+        const hn::CappedTag<float, 1> d1;
+        const std::size_t lanes = hn::Lanes(DF{});
+        std::size_t i = 0;
+        for (; i + lanes <= list.size(); i += lanes) place_some(DF{}, list, i, paint);
+        for (; i < list.size(); ++i) place_some(d1, list, i, paint);
+    }
+
+    template <class D, class Paint>
+    HWY_INLINE void place_some(D d, const PatchList& list, std::size_t first, const Paint& paint) {
+        const hn::RebindToUnsigned<D> du;
+        const hn::Rebind<std::uint16_t, D> d16;
+        const auto ids = hn::PromoteTo(du, hn::LoadU(d16, list.object_id.data() + first));
+        auto remaining = hn::Eq(hn::Zero(d), hn::Zero(d));
+        while (!hn::AllFalse(d, remaining)) {
+            const ObjectId id = list.object_id[first + static_cast<std::size_t>(hn::FindFirstTrue(d, remaining))];
+            const auto same = hn::RebindMask(d, hn::Eq(ids, hn::Set(du, std::uint32_t{id})));
+            const auto group = hn::And(remaining, same);
+            remaining = hn::AndNot(same, remaining);
+            const PixelMatrix* matrix = input_.matrices->find(id);
+            if (matrix == nullptr) {
+                if (band_.counts_skips()) skips_.empty += hn::CountTrue(d, group);
+                continue;
+            }
+            PlacedPatches placed;
+            const std::uint32_t bits = place_patches(d, list, first, *matrix, group, band_, placed, behind_, skips_);
+            if (bits != 0) paint(first, bits, placed, d);
         }
+    }
+
+    // Is the patch behind what all of its box shows? Most are not, and show it at one of five places.
+    [[nodiscard]] bool is_hidden(std::size_t lane, const PlacedPatches& placed) const {
+        const int x0 = placed.x_begin[lane];
+        const int x1 = placed.x_end[lane] - 1;
+        const int y0 = placed.y_begin[lane];
+        const int y1 = placed.y_end[lane] - 1;
+        const auto depth_step = [](float step, float from, int first, int last) {
+            return std::max(step * (static_cast<float>(first) + 0.5F - from),
+                            step * (static_cast<float>(last) + 0.5F - from));
+        };
+        // Of the plane in the box, and a little more than rounding can add: the patch in it is no nearer.
+        const float plane = placed.depth[lane] + depth_step(placed.depth_x[lane], placed.target_x[lane], x0, x1) +
+                            depth_step(placed.depth_y[lane], placed.target_y[lane], y0, y1);
+        const float nearest = std::max(plane, 0.0F) * (1.0F + 1e-5F);
+        const auto row = [&](int y) {
+            return depths_ + static_cast<std::ptrdiff_t>(y) * static_cast<std::ptrdiff_t>(target_width_);
+        };
+        const auto shows = [&](int x, int y) { return row(y)[x] <= nearest; };
+        if (shows((x0 + x1) / 2, (y0 + y1) / 2)) return false;
+        if (shows(x0, y0) || shows(x1, y0) || shows(x0, y1) || shows(x1, y1)) return false;
+        for (int y = y0; y <= y1; ++y) {
+            const float* depths = row(y);
+            if (std::any_of(depths + x0, depths + x1 + 1, [&](float depth) { return depth <= nearest; })) return false;
+        }
+        return true;
     }
 
     // Those of the patches whose boxes hold so few pixels that solving one pixel of many patches at once is faster than
     // solving many pixels of one patch.
-    HWY_INLINE std::uint32_t small_boxes(std::uint32_t bits, const PlacedPatches& placed) const {
+    static HWY_INLINE std::uint32_t small_boxes(std::uint32_t bits, const PlacedPatches& placed) {
         const auto size = [](const std::int32_t* begin, const std::int32_t* end) {
             return hn::Sub(hn::Load(DI{}, end), hn::Load(DI{}, begin));
         };
@@ -108,171 +187,219 @@ private:
     }
 
     // One pixel of every patch at a time, column by column and row by row of their boxes.
-    HWY_INLINE void paint_small(std::size_t first, std::uint32_t bits, const PlacedPatches& placed) {
-        const auto load = [&](const std::vector<float>& values) { return hn::LoadU(DF{}, values.data() + first); };
-        const auto placed_values = [](const float* values) { return hn::Load(DF{}, values); };
+    HWY_INLINE void paint_small(const PatchList& list, std::size_t first, std::uint32_t bits,
+                                const PlacedPatches& placed) {
         HWY_ALIGN std::int32_t wanted_lanes[kMaxLanes];
         for (std::size_t lane = 0; lane < kMaxLanes; ++lane)
             wanted_lanes[lane] = static_cast<std::int32_t>(bits >> lane & 1U);
         const auto wanted = hn::Gt(hn::Load(DI{}, wanted_lanes), hn::Zero(DI{}));
         const auto x_end = hn::Load(DI{}, placed.x_end);
         const auto y_end = hn::Load(DI{}, placed.y_end);
-        Patch patch;
-        patch.target_x = placed_values(placed.target_x);
-        patch.target_y = placed_values(placed.target_y);
-        patch.w = placed_values(placed.w);
-        patch.w_x = placed_values(placed.w_x);
-        patch.w_y = placed_values(placed.w_y);
-        patch.inverse_xx = placed_values(placed.inverse_xx);
-        patch.inverse_xy = placed_values(placed.inverse_xy);
-        patch.inverse_yx = placed_values(placed.inverse_yx);
-        patch.inverse_yy = placed_values(placed.inverse_yy);
-        patch.depth_factor = placed_values(placed.depth_factor);
-        patch.depth = load(list_.depth);
-        patch.gradient_x = load(list_.gradient_x);
-        patch.gradient_y = load(list_.gradient_y);
-        patch.left = load(list_.left);
-        patch.right = load(list_.right);
-        patch.top = load(list_.top);
-        patch.bottom = load(list_.bottom);
-        const bool is_whole = list_.corners[first] == kAllCorners;  // as all of the list are, or none
+        const Patch patch = many_patches(placed, list, first);
+        const VF origin_x = hn::LoadU(DF{}, list.x.data() + first);
+        const VF origin_y = hn::LoadU(DF{}, list.y.data() + first);
+        const hn::Rebind<std::uint8_t, DF> d8;
+        const auto corners = hn::PromoteTo(DI{}, hn::LoadU(d8, list.corners.data() + first));
+        const bool is_whole = list.corners[first] == kAllCorners;  // as all of the list are, or none
         for (int dy = 0; dy < kSmallBoxPx; ++dy) {
             const auto y = hn::Add(hn::Load(DI{}, placed.y_begin), hn::Set(DI{}, dy));
             const auto wanted_rows = hn::And(wanted, hn::Lt(y, y_end));
             if (hn::AllFalse(DI{}, wanted_rows)) return;
-            const VF pixel_y = hn::ConvertTo(DF{}, y);
+            const PatchRow row = row_of(patch, hn::ConvertTo(DF{}, y));
             for (int dx = 0; dx < kSmallBoxPx; ++dx) {
                 const auto x = hn::Add(hn::Load(DI{}, placed.x_begin), hn::Set(DI{}, dx));
                 const auto used = hn::And(wanted_rows, hn::Lt(x, x_end));
                 if (hn::AllFalse(DI{}, used)) break;
-                const VF pixel_x = hn::ConvertTo(DF{}, x);
                 Solved solved;
-                const auto inside = hn::And(hn::RebindMask(DF{}, used), solve(patch, pixel_x, pixel_y, solved));
+                const auto inside =
+                    hn::And(hn::RebindMask(DF{}, used), solve(patch, row, hn::ConvertTo(DF{}, x), solved));
                 if (hn::AllFalse(DF{}, inside)) continue;
+                const auto pixel = hn::Add(hn::Mul(y, hn::Set(DI{}, target_width_)), x);
                 if (is_whole) {
-                    paint_scattered(load(list_.x), load(list_.y), solved, pixel_x, pixel_y, inside);
+                    queue_.push(inside, pixel, solved.depth, hn::Add(origin_x, solved.dx),
+                                hn::Add(origin_y, solved.dy));
                 } else {
-                    fragments_.paint(first, 1, solved, indices_of(pixel_x, pixel_y), inside);
+                    fragments_.push(inside, pixel, solved.depth, hn::ConvertTo(DI{}, origin_x),
+                                    hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, corners);
                 }
             }
         }
     }
 
     // Solves every pixel of the patch's box, as many at once as there are lanes, and paints those inside of it.
-    HWY_INLINE void paint_one(std::size_t index, std::size_t lane, const PlacedPatches& placed) {
-        const auto set = [](float value) { return hn::Set(DF{}, value); };
-        Patch patch;
-        patch.target_x = set(placed.target_x[lane]);
-        patch.target_y = set(placed.target_y[lane]);
-        patch.w = set(placed.w[lane]);
-        patch.w_x = set(placed.w_x[lane]);
-        patch.w_y = set(placed.w_y[lane]);
-        patch.inverse_xx = set(placed.inverse_xx[lane]);
-        patch.inverse_xy = set(placed.inverse_xy[lane]);
-        patch.inverse_yx = set(placed.inverse_yx[lane]);
-        patch.inverse_yy = set(placed.inverse_yy[lane]);
-        patch.depth_factor = set(placed.depth_factor[lane]);
-        patch.depth = set(list_.depth[index]);
-        patch.gradient_x = set(list_.gradient_x[index]);
-        patch.gradient_y = set(list_.gradient_y[index]);
-        patch.left = set(list_.left[index]);
-        patch.right = set(list_.right[index]);
-        patch.top = set(list_.top[index]);
-        patch.bottom = set(list_.bottom[index]);
-        const VF origin_x = set(list_.x[index]);
-        const VF origin_y = set(list_.y[index]);
-        const bool is_whole = list_.corners[index] == kAllCorners;
+    HWY_INLINE void paint_one(const PatchList& list, std::size_t index, std::size_t lane, const PlacedPatches& placed) {
+        const Patch patch = one_patch(placed, lane, list, index);
+        const VF origin_x = hn::Set(DF{}, list.x[index]);
+        const VF origin_y = hn::Set(DF{}, list.y[index]);
+        const std::uint8_t corners = list.corners[index];
+        const int columns = placed.x_end[lane] - placed.x_begin[lane];
+        if (corners == kAllCorners && columns >= kFewColumnsPx && target_width_ >= lanes()) {
+            paint_runs(patch, origin_x, origin_y, lane, placed);
+            return;
+        }
+        const auto push = [&](hn::Mask<DF> inside, hn::VFromD<DI> pixel, const Solved& solved) LW_INLINE_LAMBDA {
+            if (corners == kAllCorners) {
+                queue_.push(inside, pixel, solved.depth, hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy));
+            } else {
+                fragments_.push(inside, pixel, solved.depth, hn::ConvertTo(DI{}, origin_x),
+                                hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, hn::Set(DI{}, corners));
+            }
+        };
+        solve_box(patch, lane, placed, push);
+    }
 
-        const int lanes = static_cast<int>(hn::Lanes(DF{}));
-        const int columns = std::min(placed.x_end[lane] - placed.x_begin[lane], lanes);
-        const int rows = lanes / columns;
-        const VF lane_x = hn::LoadU(DF{}, lane_offsets().x[columns]);
-        const VF lane_y = hn::LoadU(DF{}, lane_offsets().y[columns]);
-        const VF row_limit = set(static_cast<float>(placed.y_end[lane]));
-        const VF column_limit = set(static_cast<float>(placed.x_end[lane]));
-        const auto used = hn::Lt(lane_y, set(static_cast<float>(rows)));
-        for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
-            const VF pixel_y = hn::Add(lane_y, set(static_cast<float>(y)));
-            const auto used_rows = hn::And(used, hn::Lt(pixel_y, row_limit));
-            for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
-                const VF pixel_x = hn::Add(lane_x, set(static_cast<float>(x)));
+    // Runs of pixels in a row, written where they are.
+    HWY_INLINE void paint_runs(const Patch& patch, VF origin_x, VF origin_y, std::size_t lane,
+                               const PlacedPatches& placed) {
+        solve_rows(patch, lane, placed, [&](hn::Mask<DF> inside, int x, int y, const Solved& solved) LW_INLINE_LAMBDA {
+            paint_run(origin_x, origin_y, solved, x, y, inside);
+        });
+    }
+
+    // Calls `run` with the pixels of the box that are inside of the patch, as many of a row at once as there are lanes.
+    // Pixels from column x on; each once.
+    template <class Run>
+    HWY_INLINE void solve_rows(const Patch& patch, std::size_t lane, const PlacedPatches& placed, const Run& run) {
+        const VF lane_x = hn::Iota(DF{}, 0.0F);
+        const bool is_long = placed.x_end[lane] - placed.x_begin[lane] > kLongRowPx;
+        for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; ++y) {
+            const PatchRow row = row_of(patch, hn::Set(DF{}, static_cast<float>(y)));
+            const RowSpan box{placed.x_begin[lane], placed.x_end[lane]};
+            const RowSpan span = is_long ? span_of(patch, row, box) : box;
+            for (int x = span.begin; x < span.end; x += lanes()) {
+                // A vector that would end beyond the row begins earlier.
+                const int first = std::min(x, target_width_ - lanes());
+                const VF pixel_x = hn::Add(lane_x, hn::Set(DF{}, static_cast<float>(first)));
                 Solved solved;
-                auto inside = solve(patch, pixel_x, pixel_y, solved);
-                inside = hn::And(inside, hn::And(used_rows, hn::Lt(pixel_x, column_limit)));
+                auto inside = solve(patch, row, pixel_x, solved);
+                if (first < x) inside = hn::And(inside, hn::Ge(pixel_x, hn::Set(DF{}, static_cast<float>(x))));
                 if (hn::AllFalse(DF{}, inside)) continue;
-                if (!is_whole) {
-                    fragments_.paint(index, 0, solved, indices_of(pixel_x, pixel_y), inside);
-                } else if (rows == 1 && x + lanes <= target_width_) {
-                    paint_run(origin_x, origin_y, solved, x, y, inside);
-                } else {
-                    paint_scattered(origin_x, origin_y, solved, pixel_x, pixel_y, inside);
-                }
+                run(inside, first, y, solved);
             }
         }
     }
 
-    // Opaque pixels in one row from column x on.
+    // Lanes `inside` of the row y from column x on.
     template <class M>
     HWY_INLINE void paint_run(VF origin_x, VF origin_y, const Solved& solved, int x, int y, M inside) {
         const std::size_t index =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(target_width_) + static_cast<std::size_t>(x);
         __builtin_prefetch(depths_ + index + kPrefetchRows * target_width_, 1);
-        __builtin_prefetch(colours_ + index + kPrefetchRows * target_width_, 1);
-        const VF shown = hn::LoadU(DF{}, depths_ + index);
-        const auto nearer = hn::And(inside, hn::Lt(shown, solved.depth));
-        if (hn::AllFalse(DF{}, nearer)) return;
-        auto* colours = reinterpret_cast<std::uint32_t*>(colours_ + index);
-        const Taps taps = reader_.taps_of(hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy), nearer);
-        const auto colour = reader_.encoded(reader_.read_bilinear(taps.index, taps.fx, taps.fy));
+        const auto nearer = hn::And(inside, hn::Lt(hn::LoadU(DF{}, depths_ + index), solved.depth));
+        const std::uint32_t bits = bits_of(DF{}, nearer);
+        if (bits == 0) return;
+        // Places outside of the patch may be anything.
+        const auto place = [&](VF origin, VF offset) { return hn::IfThenElseZero(nearer, hn::Add(origin, offset)); };
+        const Taps taps = reader_.taps_of(place(origin_x, solved.dx), place(origin_y, solved.dy));
         hn::BlendedStore(solved.depth, nearer, DF{}, depths_ + index);
-        hn::BlendedStore(colour, hn::RebindMask(DU{}, nearer), DU{}, colours);
+        runs_.push(bits, index, taps);
     }
 
-    // Opaque pixels anywhere, each once.
-    template <class M>
-    HWY_INLINE void paint_scattered(VF origin_x, VF origin_y, const Solved& solved, VF pixel_x, VF pixel_y, M inside) {
-        HWY_ALIGN std::int32_t indices[kMaxLanes];
-        HWY_ALIGN float depths[kMaxLanes];
-        HWY_ALIGN std::int32_t tap[kMaxLanes];
-        HWY_ALIGN std::int32_t fx[kMaxLanes];
-        HWY_ALIGN std::int32_t fy[kMaxLanes];
-        const Taps taps = reader_.taps_of(hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy), inside);
-        hn::Store(indices_of(pixel_x, pixel_y), DI{}, indices);
-        hn::Store(solved.depth, DF{}, depths);
-        hn::Store(taps.index, DI{}, tap);
-        hn::Store(taps.fx, DI{}, fx);
-        hn::Store(taps.fy, DI{}, fy);
-        for (std::uint32_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
-            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
-            float& shown = depths_[indices[lane]];
-            if (shown >= depths[lane]) continue;
-            shown = depths[lane];
-            const std::uint64_t word = reader_.read_word(tap[lane], fx[lane], fy[lane]);
-            const auto channel = [&](unsigned shift) { return reader_.encoded_word(word, shift); };
-            colours_[indices[lane]] = {channel(0), channel(16), channel(32), 255};
+    // Calls `push` with the pixels of the box that are inside of the patch, as many at once as there are lanes, over
+    // several rows where they are short.
+    template <class Push>
+    HWY_INLINE void solve_box(const Patch& patch, std::size_t lane, const PlacedPatches& placed, const Push& push) {
+        const int columns = std::min(placed.x_end[lane] - placed.x_begin[lane], lanes());
+        const int rows = lanes() / columns;
+        const auto set = [](int value) { return hn::Set(DF{}, static_cast<float>(value)); };
+        const VF lane_x = hn::Load(DF{}, lane_offsets().x[columns]);
+        const VF lane_y = hn::Load(DF{}, lane_offsets().y[columns]);
+        const auto used = hn::Lt(lane_y, set(rows));
+        const VF row_end = set(placed.y_end[lane]);
+        const VF column_end = set(placed.x_end[lane]);
+        const auto width = hn::Set(DI{}, target_width_);
+        for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
+            const VF pixel_y = hn::Add(lane_y, set(y));
+            const PatchRow row = row_of(patch, pixel_y);
+            const auto used_rows = hn::And(used, hn::Lt(pixel_y, row_end));
+            for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
+                const VF pixel_x = hn::Add(lane_x, set(x));
+                Solved solved;
+                auto inside = solve(patch, row, pixel_x, solved);
+                inside = hn::And(inside, hn::And(used_rows, hn::Lt(pixel_x, column_end)));
+                if (hn::AllFalse(DF{}, inside)) continue;
+                const auto pixel = hn::Add(hn::Mul(hn::ConvertTo(DI{}, pixel_y), width), hn::ConvertTo(DI{}, pixel_x));
+                push(inside, pixel, solved);
+            }
         }
     }
 
-    [[nodiscard]] HWY_INLINE hn::VFromD<DI> indices_of(VF pixel_x, VF pixel_y) const {
-        return hn::Add(hn::Mul(hn::ConvertTo(DI{}, pixel_y), hn::Set(DI{}, target_width_)),
-                       hn::ConvertTo(DI{}, pixel_x));
+    HWY_INLINE void paint_tile(const SurfaceTiles& tiles, std::size_t index, std::size_t lane,
+                               const PlacedPatches& placed) {
+        const Patch patch = one_patch(placed, lane, tiles.surfaces, index);
+        const auto set = [](float value) { return hn::Set(DF{}, value); };
+        const VF origin_x = set(tiles.surfaces.x[index]);
+        const VF origin_y = set(tiles.surfaces.y[index]);
+        const TileCells cells{tiles.cells.data() + kTileSize * index};
+        const VF edge_left = set(tiles.edge_left[index]);
+        const VF edge_right = set(tiles.edge_right[index]);
+        const VF edge_top = set(tiles.edge_top[index]);
+        const VF edge_bottom = set(tiles.edge_bottom[index]);
+        const auto push = [&](hn::Mask<DF> inside, hn::VFromD<DI> pixel, const Solved& solved,
+                              const auto& push_whole) LW_INLINE_LAMBDA {
+            const auto cell_x = cell_of(solved.dx);
+            const auto cell_y = cell_of(solved.dy);
+            const auto corners = cells.corners(cell_x, cell_y);
+            const auto is_whole = hn::RebindMask(DF{}, hn::Eq(corners, hn::Set(DI{}, kAllCorners)));
+            push_whole(hn::And(inside, is_whole), pixel, solved);
+            const auto is_any = hn::RebindMask(DF{}, hn::Gt(corners, hn::Zero(DI{})));
+            const auto part = hn::And(inside, hn::AndNot(is_whole, is_any));
+            if (hn::AllFalse(DF{}, part)) return;
+            const auto in_columns = hn::And(hn::Ge(solved.dx, edge_left), hn::Le(solved.dx, edge_right));
+            const auto in_rows = hn::And(hn::Ge(solved.dy, edge_top), hn::Le(solved.dy, edge_bottom));
+            const auto fragment = hn::And(part, hn::And(in_columns, in_rows));
+            fragments_.push(fragment, pixel, solved.depth, hn::Add(hn::ConvertTo(DI{}, origin_x), cell_x),
+                            hn::Add(hn::ConvertTo(DI{}, origin_y), cell_y),
+                            hn::Sub(solved.dx, hn::ConvertTo(DF{}, cell_x)),
+                            hn::Sub(solved.dy, hn::ConvertTo(DF{}, cell_y)), corners);
+        };
+        if (placed.x_end[lane] - placed.x_begin[lane] >= kFewColumnsPx && target_width_ >= lanes()) {
+            solve_rows(patch, lane, placed,
+                       [&](hn::Mask<DF> inside, int x, int y, const Solved& solved) LW_INLINE_LAMBDA {
+                           const auto pixel = hn::Iota(DI{}, y * target_width_ + x);
+                           push(inside, pixel, solved,
+                                [&](hn::Mask<DF> whole, hn::VFromD<DI>, const Solved&)
+                                    LW_INLINE_LAMBDA { paint_run(origin_x, origin_y, solved, x, y, whole); });
+                       });
+            return;
+        }
+        solve_box(
+            patch, lane, placed, [&](hn::Mask<DF> inside, hn::VFromD<DI> pixel, const Solved& solved) LW_INLINE_LAMBDA {
+                push(inside, pixel, solved, [&](hn::Mask<DF> whole, hn::VFromD<DI>, const Solved&) LW_INLINE_LAMBDA {
+                    if (hn::AllFalse(DF{}, whole)) return;
+                    queue_.push(whole, pixel, solved.depth, hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy));
+                });
+            });
+    }
+
+    [[nodiscard]] static HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(DF{})); }
+
+    // The column or row of the cell at `place`, the tile's first or last where it is beyond.
+    [[nodiscard]] static HWY_INLINE hn::VFromD<DI> cell_of(VF place) {
+        const VF last = hn::Set(DF{}, static_cast<float>(kTileSize - 1));
+        return hn::ConvertTo(DI{}, hn::Min(hn::Max(place, hn::Zero(DF{})), last));
     }
 
     const PatchInput& input_;
-    const PatchList& list_;
-    SurfaceCanvas& canvas_;
     std::vector<std::uint32_t>& behind_;
     ColourReader reader_;
-    FragmentPainter fragments_;
+    ColourEncoder encoder_;
+    RunQueue runs_;
+    PixelQueue queue_;
+    FragmentQueue fragments_;
     std::int32_t target_width_;
     TargetBand band_;
+    SurfaceSkips& skips_;
     float* depths_;
-    Rgba8* colours_;
 };
 
 void draw_patches_here(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
                        std::vector<std::uint32_t>& behind) {
-    Painter{input, list, canvas, behind}.paint();
+    Painter{input, canvas, behind}.paint_patches(list);
+}
+
+void draw_tiles_here(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
+    Painter{input, canvas, behind}.paint_tiles(input.prepared->tiles);
 }
 
 void mark_coverage_here(const float* depths, std::size_t count, Coverage* coverage) {
@@ -296,11 +423,16 @@ HWY_AFTER_NAMESPACE();
 namespace lw {
 
 HWY_EXPORT(draw_patches_here);
+HWY_EXPORT(draw_tiles_here);
 HWY_EXPORT(mark_coverage_here);
 
 void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind) {
-    HWY_DYNAMIC_DISPATCH(draw_patches_here)(input, list, canvas, behind);
+    if (list.size() > 0) HWY_DYNAMIC_DISPATCH(draw_patches_here)(input, list, canvas, behind);
+}
+
+void draw_tiles(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
+    if (input.prepared->tiles.surfaces.size() > 0) HWY_DYNAMIC_DISPATCH(draw_tiles_here)(input, canvas, behind);
 }
 
 void mark_coverage(const float* depths, std::size_t count, Coverage* coverage) {

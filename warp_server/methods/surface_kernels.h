@@ -18,6 +18,9 @@ struct PatchInput {
 void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind);
 
+/// The same for `prepared->tiles`.
+void draw_tiles(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind);
+
 /// Reached where a depth is 0 or more, a hole where it is negative.
 void mark_coverage(const float* depths, std::size_t count, Coverage* coverage);
 

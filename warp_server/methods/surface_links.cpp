@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "warp_server/methods/lanes.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_classify.h"
 #include "warp_server/methods/surface_tolerances.h"
@@ -16,8 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
-
-namespace hn = hwy::HWY_NAMESPACE;
 
 // One row of the image with its first pixel repeated once before it, its last one after it; unusable depths are -1.
 struct PaddedRow {
@@ -27,8 +27,7 @@ struct PaddedRow {
 constexpr int kPadBefore = 1;
 constexpr int kPadAfter = 2 + HWY_MAX_BYTES / 4;
 
-// False when the row holds a depth that cannot be used.
-bool fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
+void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
     const hn::Rebind<std::uint16_t, decltype(d)> d16;
@@ -40,18 +39,14 @@ bool fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
     float* to_depth = row.depth.data() + kPadBefore;
     std::int32_t* to_id = row.id.data() + kPadBefore;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    auto all_usable = hn::Eq(hn::Zero(d), hn::Zero(d));
-    bool rest_usable = true;
     int x = 0;
     for (; x + lanes <= width; x += lanes) {
         const auto value = hn::LoadU(d, depth + x);
         const auto usable = hn::And(hn::Ge(value, hn::Zero(d)), hn::Le(value, hn::Set(d, 1.0F)));
-        all_usable = hn::And(all_usable, usable);
         hn::StoreU(hn::IfThenElse(usable, value, hn::Set(d, -1.0F)), d, to_depth + x);
         hn::StoreU(hn::PromoteTo(di, hn::LoadU(d16, id + x)), di, to_id + x);
     }
     for (; x < width; ++x) {
-        rest_usable = rest_usable && is_usable_depth(depth[x]);
         to_depth[x] = is_usable_depth(depth[x]) ? depth[x] : -1.0F;
         to_id[x] = id[x];
     }
@@ -59,7 +54,6 @@ bool fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
     to_id[-1] = to_id[0];
     std::fill(to_depth + width, to_depth + width + kPadAfter, to_depth[width - 1]);
     std::fill(to_id + width, to_id + width + kPadAfter, to_id[width - 1]);
-    return rest_usable && hn::AllTrue(d, all_usable);
 }
 
 // on_one_surface for Lanes(d) pixels a whose neighbours b follow. Depths of other objects than a's count as -1.
@@ -108,59 +102,75 @@ void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& be
     }
 }
 
-void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links, std::vector<std::uint8_t>& bad_rows) {
+void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links) {
     const int height = pixels.depth.height();
     PaddedRow rows[4];  // y - 1, y, y + 1, y + 2, by y % 4
     const auto row = [&](int y) -> PaddedRow& {
         return rows[static_cast<unsigned>(std::clamp(y, 0, height - 1)) % 4U];
     };
-    const auto fill = [&](int y) { bad_rows[static_cast<std::size_t>(y)] = fill_row(pixels, y, row(y)) ? 0 : 1; };
-    for (int y = 0; y < std::min(2, height); ++y) fill(y);
+    for (int y = 0; y < std::min(2, height); ++y) fill_row(pixels, y, row(y));
     for (int y = 0; y < height; ++y) {
-        if (y + 2 < height) fill(y + 2);
+        if (y + 2 < height) fill_row(pixels, y + 2, row(y + 2));
         link_row(row(y - 1), row(y), row(y + 1), row(y + 2), links.width(), links.row(y).data());
     }
 }
 
-bool block_is_plane_here(const CpuPixels& pixels, const BlockToTest& block) {
-    const hn::ScalableTag<float> d;
-    const hn::RebindToSigned<decltype(d)> di;
-    const hn::Rebind<std::uint16_t, decltype(d)> d16;
+// One pixel of a block against its plane.
+bool is_on_plane(const CpuPixels& pixels, const BlockToTest& block, std::size_t at, float expected) {
+    const float depth = pixels.depth.pixels()[at];
+    return is_usable_depth(depth) && std::abs(depth - expected) <= kPlaneDepthPart * depth &&
+           pixels.object_id.pixels()[at] == block.id;
+}
+
+// Lanes(d) pixels of a block's row from `column` on against its plane, as bits; those beyond the row are 0.
+template <class D>
+HWY_INLINE std::uint32_t on_plane(D d, const CpuPixels& pixels, const BlockToTest& block, int row, int column) {
+    const hn::RebindToSigned<D> di;
+    const hn::Rebind<std::uint16_t, D> d16;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const auto width = static_cast<std::size_t>(pixels.depth.width());
-    const std::size_t count = pixels.depth.pixels().size();
-    const auto tolerance = hn::Set(d, kPlaneDepthPart);
-    const auto wanted_id = hn::Set(di, std::int32_t{block.id});
+    const std::size_t at = static_cast<std::size_t>(block.y + row) * width + static_cast<std::size_t>(block.x + column);
+    const float first_depth =
+        block.depth + static_cast<float>(row) * block.gradient_y + static_cast<float>(column) * block.gradient_x;
+    const int asked = std::min(lanes, block.columns - column);
+    if (at + static_cast<std::size_t>(lanes) > pixels.depth.pixels().size()) {  // a vector would read beyond the image
+        std::uint32_t bits = 0;
+        for (int i = 0; i < asked; ++i) {
+            const float expected = first_depth + static_cast<float>(i) * block.gradient_x;
+            if (is_on_plane(pixels, block, at + static_cast<std::size_t>(i), expected)) bits |= 1U << i;
+        }
+        return bits;
+    }
     const auto step = hn::Mul(hn::Iota(d, 0.0F), hn::Set(d, block.gradient_x));
+    const auto depth = hn::LoadU(d, pixels.depth.pixels().data() + at);
+    const auto id = hn::PromoteTo(di, hn::LoadU(d16, pixels.object_id.pixels().data() + at));
+    const auto off = hn::Abs(hn::Sub(depth, hn::Add(hn::Set(d, first_depth), step)));
+    // Nothing else need be asked: a negative depth allows nothing, and one above 1 or NaN fails below.
+    auto on = hn::And(hn::Le(off, hn::Mul(hn::Set(d, kPlaneDepthPart), depth)), hn::Le(depth, hn::Set(d, 1.0F)));
+    on = hn::And(on, hn::RebindMask(d, hn::Eq(id, hn::Set(di, std::int32_t{block.id}))));
+    return bits_of(d, on) & ((1U << asked) - 1U);
+}
+
+bool block_is_plane_here(const CpuPixels& pixels, const BlockToTest& block) {
+    const int lanes = static_cast<int>(hn::Lanes(DF{}));
     for (int row = 0; row < block.rows; ++row) {
-        const std::size_t row_start =
-            static_cast<std::size_t>(block.y + row) * width + static_cast<std::size_t>(block.x);
-        const float row_depth = block.depth + static_cast<float>(row) * block.gradient_y;
         for (int column = 0; column < block.columns; column += lanes) {
-            const std::size_t at = row_start + static_cast<std::size_t>(column);
-            const float first_depth = row_depth + static_cast<float>(column) * block.gradient_x;
-            if (at + static_cast<std::size_t>(lanes) > count) {  // a vector would read beyond the image
-                for (int i = 0; i < std::min(lanes, block.columns - column); ++i) {
-                    const float depth = pixels.depth.pixels()[at + static_cast<std::size_t>(i)];
-                    const float expected = first_depth + static_cast<float>(i) * block.gradient_x;
-                    const bool on_plane = is_usable_depth(depth) &&
-                                          std::abs(depth - expected) <= kPlaneDepthPart * depth &&
-                                          pixels.object_id.pixels()[at + static_cast<std::size_t>(i)] == block.id;
-                    if (!on_plane) return false;
-                }
-                continue;
-            }
-            const auto depth = hn::LoadU(d, pixels.depth.pixels().data() + at);
-            const auto id = hn::PromoteTo(di, hn::LoadU(d16, pixels.object_id.pixels().data() + at));
-            const auto off = hn::Abs(hn::Sub(depth, hn::Add(hn::Set(d, first_depth), step)));
-            // Nothing else need be asked: a negative depth allows nothing, and one above 1 or NaN fails below.
-            auto on_plane = hn::And(hn::Le(off, hn::Mul(tolerance, depth)), hn::Le(depth, hn::Set(d, 1.0F)));
-            on_plane = hn::And(on_plane, hn::RebindMask(d, hn::Eq(id, wanted_id)));
-            const auto asked = hn::FirstN(d, static_cast<std::size_t>(block.columns - column));
-            if (!hn::AllFalse(d, hn::AndNot(on_plane, asked))) return false;
+            const int asked = std::min(lanes, block.columns - column);
+            if (on_plane(DF{}, pixels, block, row, column) != (1U << asked) - 1U) return false;
         }
     }
     return true;
+}
+
+void plane_members_here(const CpuPixels& pixels, const BlockToTest& block, std::uint16_t* rows) {
+    const int lanes = static_cast<int>(hn::Lanes(DF{}));
+    for (int row = 0; row < block.rows; ++row) {
+        std::uint32_t bits = 0;
+        for (int column = 0; column < block.columns; column += lanes) {
+            bits |= on_plane(DF{}, pixels, block, row, column) << column;
+        }
+        rows[row] = static_cast<std::uint16_t>(bits);
+    }
 }
 
 }  // namespace
@@ -172,15 +182,19 @@ namespace lw {
 
 HWY_EXPORT(link_image);
 HWY_EXPORT(block_is_plane_here);
+HWY_EXPORT(plane_members_here);
 
 bool block_is_plane(const CpuPixels& pixels, const BlockToTest& block) {
     return HWY_DYNAMIC_DISPATCH(block_is_plane_here)(pixels, block);
 }
 
+void plane_members(const CpuPixels& pixels, const BlockToTest& block, std::uint16_t* rows) {
+    HWY_DYNAMIC_DISPATCH(plane_members_here)(pixels, block, rows);
+}
+
 SurfaceLinks::SurfaceLinks(const CpuPixels& pixels) : pixels_{&pixels} {
     to_right_and_down_.resize(pixels.depth.size_px());
-    bad_rows_.resize(static_cast<std::size_t>(pixels.depth.height()));
-    HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_, bad_rows_);
+    HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_);
 }
 
 float SurfaceLinks::depth_of(ObjectId id, int x, int y) const {

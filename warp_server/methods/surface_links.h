@@ -2,7 +2,6 @@
 /// Which neighbouring pixels lie on one surface.
 
 #include <cstdint>
-#include <vector>
 
 #include "core/image.h"
 #include "core/object_transform.h"
@@ -42,9 +41,6 @@ public:
         const unsigned below = to_right_and_down_.at(x, y1);
         return static_cast<std::uint8_t>((here & 1U) | (below & 1U) << 1U | (here & 2U) << 1U | (right & 2U) << 2U);
     }
-    /// Does row `y` hold a depth that cannot be used?
-    [[nodiscard]] bool has_bad_depth(int y) const { return bad_rows_[static_cast<std::size_t>(y)] != 0; }
-
     /// Sides and diagonals.
     [[nodiscard]] std::uint8_t all_links(int x, int y) const;
 
@@ -56,7 +52,6 @@ private:
 
     const CpuPixels* pixels_;
     Image<std::uint8_t> to_right_and_down_;
-    std::vector<std::uint8_t> bad_rows_;
 };
 
 /// A block of pixels: its first one, its size, and the plane it should lie on.
@@ -72,6 +67,9 @@ struct BlockToTest {
 };
 /// Are all pixels of the block, which lies in the image, of its object and within kPlaneDepthPart of its plane?
 [[nodiscard]] bool block_is_plane(const CpuPixels& pixels, const BlockToTest& block);
+
+/// Which of them are: bit `column` of `rows[row]`. At most 16 columns.
+void plane_members(const CpuPixels& pixels, const BlockToTest& block, std::uint16_t* rows);
 
 /// True for cells whose sides join all four corners: three of them do.
 [[nodiscard]] inline bool joins_all_corners(std::uint8_t sides) {

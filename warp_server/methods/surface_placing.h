@@ -14,6 +14,7 @@
 #include "warp_server/methods/lanes.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/row_range.h"
+#include "warp_server/methods/surface_canvas.h"
 #include "warp_server/methods/surface_classify.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -23,38 +24,44 @@ inline constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no im
 // Target pixels per source pixel, in area, below which a plane counts as seen edge-on; negative: from its back.
 inline constexpr float kSmallestArea = 1e-4F;
 
-/// Patches laid out for one target: the inverse of each one's homography, relative to where its origin lands. With e
-/// the offset of a target place from there: k = inverse * e, share = 1 - w_x kx - w_y ky, offset in the source =
-/// w / share * k.
+/// Patches laid out for one target, and the way back. With e the offset of a target place from where the patch's origin
+/// lands: share = 1 + share_x e_x + share_y e_y, offset in the source = (x_x e_x + x_y e_y, y_x e_x + y_y e_y) / share,
+/// and depth in the target = depth + depth_x e_x + depth_y e_y.
 struct alignas(HWY_MAX_BYTES) PlacedPatches {
     float target_x[kMaxLanes];
     float target_y[kMaxLanes];
-    float w[kMaxLanes];
-    float w_x[kMaxLanes];
-    float w_y[kMaxLanes];
-    float inverse_xx[kMaxLanes];
-    float inverse_xy[kMaxLanes];
-    float inverse_yx[kMaxLanes];
-    float inverse_yy[kMaxLanes];
-    float depth_factor[kMaxLanes];  ///< depth in the target = factor * share * depth in the source
+    float x_x[kMaxLanes];
+    float x_y[kMaxLanes];
+    float y_x[kMaxLanes];
+    float y_y[kMaxLanes];
+    float share_x[kMaxLanes];
+    float share_y[kMaxLanes];
+    float depth[kMaxLanes];
+    float depth_x[kMaxLanes];
+    float depth_y[kMaxLanes];
     std::int32_t x_begin[kMaxLanes];
     std::int32_t x_end[kMaxLanes];
     std::int32_t y_begin[kMaxLanes];
     std::int32_t y_end[kMaxLanes];
 };
 
-/// The rows that a picture is drawn in, and its width.
+/// The rows of a picture that are drawn, and its size.
 struct TargetBand {
     std::int32_t width_px = 0;
+    std::int32_t height_px = 0;
     RowRange rows;
+
+    /// What has no place in the picture is counted by the first band alone.
+    [[nodiscard]] bool counts_skips() const { return rows.begin == 0; }
 };
 
 /// Places Lanes(d) patches of one object from index `first` on. One bit for each of those `wanted` that have pixels in
-/// the band. Those that reach behind the target eye have none; their indices are appended to `behind`.
+/// the band. Those that reach behind the target eye have none; their indices are appended to `behind`. Those that are
+/// not in the picture at all are counted.
 template <class D, class M>
 HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t first, const PixelMatrix& m, M wanted,
                                        const TargetBand& band, PlacedPatches& placed,
-                                       std::vector<std::uint32_t>& behind) {
+                                       std::vector<std::uint32_t>& behind, SurfaceSkips& skips) {
     using V = hn::Vec<D>;
     const hn::RebindToSigned<D> di;
     const auto set = [&](float value) { return hn::Set(d, value); };
@@ -123,20 +130,46 @@ HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t f
         hn::And(hn::Lt(hn::Abs(target_x), set(kOutOfReachPx)), hn::Lt(hn::Abs(target_y), set(kOutOfReachPx)));
     const auto visible =
         hn::And(hn::And(wanted, hn::And(in_front, in_reach)), hn::And(faces_us, hn::RebindMask(d, not_empty)));
+    if (band.counts_skips()) {
+        const auto in_picture =
+            hn::And(hn::And(hn::Ge(high_x, half_px), hn::Le(low_x, set(width - 0.5F))),
+                    hn::And(hn::Ge(high_y, half_px), hn::Le(low_y, set(static_cast<float>(band.height_px) - 0.5F))));
+        const auto placed_ones = hn::And(wanted, in_front);
+        skips.empty += hn::CountTrue(d, hn::AndNot(faces_us, placed_ones));
+        skips.outside += hn::CountTrue(d, hn::AndNot(in_picture, hn::And(placed_ones, faces_us)));
+    }
     const std::uint32_t bits = bits_of(d, visible);
     if (bits == 0) return 0;
 
+    // k = inverse * e, share = 1 - w_x kx - w_y ky, offset in the source = w / share * k.
     const V scale = hn::Div(set(1.0F), determinant);
+    const V k_xx = hn::Mul(yy, scale);
+    const V k_xy = hn::Neg(hn::Mul(xy, scale));
+    const V k_yx = hn::Neg(hn::Mul(yx, scale));
+    const V k_yy = hn::Mul(xx, scale);
+    const V share_x = hn::Neg(hn::Add(hn::Mul(w_x, k_xx), hn::Mul(w_y, k_yx)));
+    const V share_y = hn::Neg(hn::Add(hn::Mul(w_x, k_xy), hn::Mul(w_y, k_yy)));
+    const V x_x = hn::Mul(w, k_xx);
+    const V x_y = hn::Mul(w, k_xy);
+    const V y_x = hn::Mul(w, k_yx);
+    const V y_y = hn::Mul(w, k_yy);
+    // Depth in the target = factor * share * depth in the source, and that is affine where the pixel is.
+    const V factor = hn::Mul(set(m.depth_scale), inverse_w);
+    const auto depth_step = [&](V share_step, V x_step, V y_step) {
+        const V along = hn::Add(hn::Mul(gradient_x, x_step), hn::Mul(gradient_y, y_step));
+        return hn::Mul(factor, hn::Add(hn::Mul(z, share_step), along));
+    };
     hn::Store(target_x, d, placed.target_x);
     hn::Store(target_y, d, placed.target_y);
-    hn::Store(w, d, placed.w);
-    hn::Store(w_x, d, placed.w_x);
-    hn::Store(w_y, d, placed.w_y);
-    hn::Store(hn::Mul(yy, scale), d, placed.inverse_xx);
-    hn::Store(hn::Neg(hn::Mul(xy, scale)), d, placed.inverse_xy);
-    hn::Store(hn::Neg(hn::Mul(yx, scale)), d, placed.inverse_yx);
-    hn::Store(hn::Mul(xx, scale), d, placed.inverse_yy);
-    hn::Store(hn::Mul(set(m.depth_scale), inverse_w), d, placed.depth_factor);
+    hn::Store(x_x, d, placed.x_x);
+    hn::Store(x_y, d, placed.x_y);
+    hn::Store(y_x, d, placed.y_x);
+    hn::Store(y_y, d, placed.y_y);
+    hn::Store(share_x, d, placed.share_x);
+    hn::Store(share_y, d, placed.share_y);
+    hn::Store(hn::Mul(factor, z), d, placed.depth);
+    hn::Store(depth_step(share_x, x_x, y_x), d, placed.depth_x);
+    hn::Store(depth_step(share_y, x_y, y_y), d, placed.depth_y);
     hn::Store(x_begin, di, placed.x_begin);
     hn::Store(x_end, di, placed.x_end);
     hn::Store(y_begin, di, placed.y_begin);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 
 #include "warp_server/methods/lanes.h"
 #include "warp_server/methods/linear_colour.h"
@@ -17,192 +18,200 @@
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 
-inline constexpr int kPrefetchRows =
-    3;  // blocks are narrow, so that the next rows come before the next lines of this one
-
-/// Where a bilinear read begins, and its fractions in 15 bits; exactly 0 at a pixel centre.
+/// Where bilinear reads begin, and their fractions in 15 bits; exactly 0 at a pixel centre.
 struct Taps {
-    hn::VFromD<DI> index;
+    hn::VFromD<DI> x;
+    hn::VFromD<DI> y;
     hn::VFromD<DI> fx;
     hn::VFromD<DI> fy;
 };
 
 /// 15-bit channels of Lanes(DF) pixels.
 struct LinearColours {
-    hn::VFromD<DU> red_green;  ///< red in the lower half
+    hn::VFromD<DU> red;
+    hn::VFromD<DU> green;
     hn::VFromD<DU> blue;
+};
+
+/// Two neighbours in a row of one channel: the left one in the lower half, the right one in the upper.
+struct PixelPairs {
+    hn::VFromD<DU> top;
+    hn::VFromD<DU> bottom;
 };
 
 /// Reads one source image.
 class ColourReader {
 public:
-    /// @param linear  as linearise() makes it; outlives this
-    ColourReader(const std::uint64_t* linear, glm::ivec2 size_px)
-        : linear_{linear}, size_px_{size_px}, cubics_{srgb_cubics()}, encode_{srgb8_from_linear15_table().data()} {}
+    /// `image` outlives this.
+    explicit ColourReader(const LinearImage& image)
+        : values_{image.data()},
+          channel_stride_{image.channel_stride()},
+          row_stride_{image.row_stride()},
+          last_{static_cast<float>(image.size_px().x - 1), static_cast<float>(image.size_px().y - 1)} {}
 
-    /// Taps at x, y: pixels from the centre of the first pixel. Of the lanes `wanted`; the others' read somewhere in
-    /// the image.
-    template <class M>
-    HWY_INLINE Taps taps_of(VF x_px, VF y_px, M wanted) const {
-        const auto within = [&](VF place, int size) {
-            return hn::Min(hn::Max(hn::IfThenElseZero(wanted, place), hn::Zero(DF{})),
-                           hn::Set(DF{}, static_cast<float>(size - 1)));
+    /// Taps at x, y: pixels from the centre of the first pixel; clamped to the image.
+    [[nodiscard]] HWY_INLINE Taps taps_of(VF x_px, VF y_px) const {
+        // Whole pixels and fraction at once: a coordinate below 2^14 times 2^15 is exact in both number formats.
+        const auto fixed = [](VF place, float last) {
+            const VF within = hn::Min(hn::Max(place, hn::Zero(DF{})), hn::Set(DF{}, last));
+            return hn::ConvertTo(DI{}, hn::Mul(within, hn::Set(DF{}, 32768.0F)));
         };
-        const auto fraction = [&](VF place, hn::VFromD<DI> first) {
-            const VF part = hn::Sub(place, hn::ConvertTo(DF{}, first));
-            return hn::ConvertTo(DI{}, hn::Min(hn::Mul(part, hn::Set(DF{}, 32768.0F)), hn::Set(DF{}, 32767.0F)));
-        };
-        const VF x = within(x_px, size_px_.x);
-        const VF y = within(y_px, size_px_.y);
-        const auto x0 = hn::ConvertTo(DI{}, x);
-        const auto y0 = hn::ConvertTo(DI{}, y);
-        return {hn::Add(hn::Mul(y0, hn::Set(DI{}, size_px_.x)), x0), fraction(x, x0), fraction(y, y0)};
+        const auto fraction = hn::Set(DI{}, 32767);
+        const auto x = fixed(x_px, last_[0]);
+        const auto y = fixed(y_px, last_[1]);
+        return {hn::ShiftRight<15>(x), hn::ShiftRight<15>(y), hn::And(x, fraction), hn::And(y, fraction)};
     }
 
-    /// Colours at the taps.
-#if HWY_TARGET == HWY_SCALAR
-    HWY_INLINE LinearColours read_bilinear(hn::VFromD<DI> tap, hn::VFromD<DI> fx, hn::VFromD<DI> fy) const {
-        const std::uint64_t word = read_word(hn::GetLane(tap), hn::GetLane(fx), hn::GetLane(fy));
-        return {hn::Set(DU{}, static_cast<std::uint32_t>(word)),
-                hn::Set(DU{}, static_cast<std::uint32_t>(word >> 32U))};
+    /// Bilinear colours at the taps, which may be anywhere.
+    [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
+        const auto channel = [&](int index) { return mixed(pairs_at(taps, index), taps.fx, taps.fy); };
+        return {channel(0), channel(1), channel(2)};
     }
+
+    /// The four pixels at each tap, of channel 0 (red), 1 or 2.
+    [[nodiscard]] HWY_INLINE PixelPairs pairs_at(const Taps& taps, int channel) const {
+        const std::uint16_t* values = values_ + channel * channel_stride_;
+#if LW_HAS_WIDE_LOOKUPS
+        const auto at = hn::Add(hn::Mul(taps.y, hn::Set(DI{}, static_cast<std::int32_t>(row_stride_))), taps.x);
+        constexpr int kBytes = 2;
+        return {hn::VFromD<DU>{_mm512_i32gather_epi32(at.raw, values, kBytes)},
+                hn::VFromD<DU>{_mm512_i32gather_epi32(at.raw, values + row_stride_, kBytes)}};
 #else
-    // One pixel per 128-bit block: its two upper neighbours in one load, its two lower ones in another.
-    HWY_INLINE LinearColours read_bilinear(hn::VFromD<DI> tap, hn::VFromD<DI> fx, hn::VFromD<DI> fy) const {
-        HWY_ALIGN std::int32_t taps[kMaxLanes];
-        hn::Store(tap, DI{}, taps);
-        __builtin_prefetch(linear_ + taps[0] + (kPrefetchRows + 1) * size_px_.x);
-        __builtin_prefetch(linear_ + taps[kMaxLanes / 2] + (kPrefetchRows + 1) * size_px_.x);
-        const auto across = twice_in_halves(fx);
-        const auto down = twice_in_halves(fy);
-        const auto first = read_blocks(taps, 0, across, down);
-        const auto second = read_blocks(taps, 1, across, down);
-        const auto third = read_blocks(taps, 2, across, down);
-        const auto fourth = read_blocks(taps, 3, across, down);
-        const hn::ScalableTag<std::uint64_t> d64;
-        const auto low = hn::BitCast(DU{}, hn::ConcatEven(d64, second, first));
-        const auto high = hn::BitCast(DU{}, hn::ConcatEven(d64, fourth, third));
-        return {hn::ConcatEven(DU{}, high, low), hn::ConcatOdd(DU{}, high, low)};
-    }
-#endif
-
-    /// One pixel, as read_bilinear would. Rows first, then columns, each step rounded to 15 bits: a + (b - a) *
-    /// fraction.
-    [[nodiscard]] HWY_INLINE std::uint64_t read_word(std::int32_t tap, std::int32_t fx, std::int32_t fy) const {
-        const std::uint64_t* top = linear_ + tap;
-        const std::uint64_t* bottom = top + size_px_.x;
-#if HWY_TARGET == HWY_SCALAR
-        std::uint64_t word = 0;
-        for (unsigned shift = 0; shift < 48; shift += 16) {
-            const auto at = [&](const std::uint64_t* from) {
-                return static_cast<std::int32_t>(*from >> shift & 0xFFFFU);
-            };
-            const auto mix = [](std::int32_t a, std::int32_t b, std::int32_t f) {
-                return a + (((b - a) * f + 0x4000) >> 15);
-            };
-            const std::int32_t left = mix(at(top), at(bottom), fy);
-            const std::int32_t right = mix(at(top + 1), at(bottom + 1), fy);
-            word |= static_cast<std::uint64_t>(mix(left, right, fx)) << shift;
+        HWY_ALIGN std::int32_t x[kMaxLanes];
+        HWY_ALIGN std::int32_t y[kMaxLanes];
+        HWY_ALIGN std::uint32_t top[kMaxLanes];
+        HWY_ALIGN std::uint32_t bottom[kMaxLanes];
+        hn::Store(taps.x, DI{}, x);
+        hn::Store(taps.y, DI{}, y);
+        for (std::size_t lane = 0; lane < hn::Lanes(DF{}); ++lane) {
+            const std::uint16_t* from = values + y[lane] * row_stride_ + x[lane];
+            std::memcpy(&top[lane], from, sizeof(std::uint32_t));
+            std::memcpy(&bottom[lane], from + row_stride_, sizeof(std::uint32_t));
         }
-        return word;
-#else
-        const hn::FixedTag<std::int16_t, 8> d16;
-        const hn::FixedTag<std::uint64_t, 2> d64;
-        const auto above = hn::BitCast(d16, hn::LoadU(d64, top));
-        const auto below = hn::BitCast(d16, hn::LoadU(d64, bottom));
-        const auto down = hn::Set(d16, static_cast<std::int16_t>(fy));
-        const auto across = hn::Set(d16, static_cast<std::int16_t>(fx));
-        const auto pair = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), down));
-        const auto right = hn::ShiftRightLanes<4>(d16, pair);
-        const auto word = hn::Add(pair, hn::MulFixedPoint15(hn::Sub(right, pair), across));
-        return hn::GetLane(hn::BitCast(d64, word));
+        return {hn::Load(DU{}, top), hn::Load(DU{}, bottom)};
 #endif
     }
 
-    /// srgb8_from_linear15 of one channel of a word.
-    [[nodiscard]] HWY_INLINE std::uint8_t encoded_word(std::uint64_t word, unsigned shift) const {
-        return encode_[word >> shift & 0x7FFFU];
+#if LW_HAS_WIDE_LOOKUPS
+    /// Colours at the taps of the lanes `wanted`. False, and nothing read, when they do not lie in two rows and one
+    /// vector's stretch of columns from (first_x, first_y) on, with their right and lower neighbours.
+    template <class M>
+    [[nodiscard]] HWY_INLINE bool read_run(const Taps& taps, M wanted, int first_x, int first_y,
+                                           LinearColours& colours) const {
+        const auto column = hn::Sub(taps.x, hn::Set(DI{}, first_x));
+        const auto below_first = hn::Sub(taps.y, hn::Set(DI{}, first_y));
+        constexpr std::uint32_t kLastColumn = LinearImage::kSpareColumns - 2;
+        const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
+        const auto far_row = hn::Gt(hn::BitCast(DU{}, below_first), hn::Set(DU{}, 1U));
+        if (!hn::AllFalse(DU{}, hn::And(hn::RebindMask(DU{}, wanted), hn::Or(far_column, far_row)))) return false;
+
+        // Entries of two rows lie in two vectors, so that bit 5 of a lookup says which row. The lower half of the lanes
+        // looks left neighbours up, the upper half right ones.
+        const auto row = hn::ShiftLeft<5>(below_first);
+        const __m256i left = _mm512_cvtepi32_epi16(hn::Add(column, row).raw);
+        const __m256i right = _mm256_add_epi16(left, _mm256_set1_epi16(1));
+        const __m512i at = _mm512_inserti64x4(_mm512_castsi256_si512(left), right, 1);
+        const __m256i fx = _mm512_cvtepi32_epi16(taps.fx.raw);
+        const __m512i fy = _mm512_broadcast_i64x4(_mm512_cvtepi32_epi16(taps.fy.raw));
+        const std::uint16_t* from = values_ + first_y * row_stride_ + first_x;
+        const auto channel = [&](std::ptrdiff_t index) {
+            const std::uint16_t* row0 = from + index * channel_stride_;
+            __builtin_prefetch(row0 + kPrefetchRows * row_stride_);
+            const __m512i above = _mm512_loadu_si512(row0);
+            const __m512i middle = _mm512_loadu_si512(row0 + row_stride_);
+            const __m512i below = _mm512_loadu_si512(row0 + 2 * row_stride_);
+            const __m512i top = _mm512_permutex2var_epi16(above, at, middle);
+            const __m512i bottom = _mm512_permutex2var_epi16(middle, at, below);
+            const __m512i pair = _mm512_add_epi16(top, _mm512_mulhrs_epi16(_mm512_sub_epi16(bottom, top), fy));
+            const __m256i left_value = _mm512_castsi512_si256(pair);
+            const __m256i right_value = _mm512_extracti64x4_epi64(pair, 1);
+            const __m256i value =
+                _mm256_add_epi16(left_value, _mm256_mulhrs_epi16(_mm256_sub_epi16(right_value, left_value), fx));
+            return hn::VFromD<DU>{_mm512_cvtepu16_epi32(value)};
+        };
+        colours = {channel(0), channel(1), channel(2)};
+        return true;
     }
+#endif
+
+private:
+    static constexpr std::ptrdiff_t kPrefetchRows = 5;  // those below the rows that the next runs read
+
+    // Down first, then across, each step rounded to 15 bits: a + (b - a) * fraction.
+    [[nodiscard]] static HWY_INLINE hn::VFromD<DU> mixed(const PixelPairs& pairs, hn::VFromD<DI> fx,
+                                                         hn::VFromD<DI> fy) {
+        const auto low = hn::Set(DU{}, 0xFFFFU);
+        const auto top = pairs.top;
+        const auto down = hn::BitCast(DU{}, hn::Or(fy, hn::ShiftLeft<16>(fy)));
+        const auto pair = mixed_halves(top, pairs.bottom, down);
+        const auto right = hn::ShiftRight<16>(pair);
+        return hn::And(mixed_halves(pair, right, hn::BitCast(DU{}, fx)), low);
+    }
+
+    // Of both 16-bit halves of each lane.
+    [[nodiscard]] static HWY_INLINE hn::VFromD<DU> mixed_halves(hn::VFromD<DU> a, hn::VFromD<DU> b,
+                                                                hn::VFromD<DU> fraction) {
+#if HWY_TARGET == HWY_SCALAR
+        const auto half = [&](unsigned shift) {
+            const auto value = [&](hn::VFromD<DU> from) {
+                return static_cast<std::int32_t>(static_cast<std::int16_t>(hn::GetLane(from) >> shift & 0xFFFFU));
+            };
+            const std::int32_t step = static_cast<std::int16_t>(value(b) - value(a));
+            const std::int32_t mixed = value(a) + ((step * value(fraction) + 0x4000) >> 15);
+            return (static_cast<std::uint32_t>(mixed) & 0xFFFFU) << shift;
+        };
+        return hn::Set(DU{}, half(0) | half(16));
+#else
+        const hn::Repartition<std::int16_t, DU> d16;
+        const auto from = hn::BitCast(d16, a);
+        const auto step = hn::Sub(hn::BitCast(d16, b), from);
+        return hn::BitCast(DU{}, hn::Add(from, hn::MulFixedPoint15(step, hn::BitCast(d16, fraction))));
+#endif
+    }
+
+    const std::uint16_t* values_;
+    std::ptrdiff_t channel_stride_;
+    std::ptrdiff_t row_stride_;
+    std::array<float, 2> last_;
+};
+
+/// Encodes linear light as sRGB.
+class ColourEncoder {
+public:
+    ColourEncoder() : parabolas_{srgb_parabolas()} {}
 
     /// srgb8_from_linear15 of three channels, packed and opaque.
-    HWY_INLINE hn::VFromD<DU> encoded(const LinearColours& linear) const {
-        const auto mask = hn::Set(DU{}, 0x7FFFU);
-        const auto red = encoded_channel(hn::And(linear.red_green, mask));
-        const auto green = encoded_channel(hn::And(hn::ShiftRight<16>(linear.red_green), mask));
-        const auto blue = encoded_channel(hn::And(linear.blue, mask));
-        const auto low = hn::Or(red, hn::ShiftLeft<8>(green));
-        return hn::Or(low, hn::Or(hn::ShiftLeft<16>(blue), hn::Set(DU{}, 0xFF000000U)));
+    [[nodiscard]] HWY_INLINE hn::VFromD<DU> encoded(const LinearColours& linear) const {
+        // Above its lowest byte each holds what kRoundingOffset left: shifted out, or overwritten by the opaque alpha.
+        const auto red = hn::Or(channel(linear.red), hn::Set(DU{}, 0xFF000000U));
+        const auto green = hn::ShiftLeft<8>(channel(linear.green));
+        const auto blue = hn::ShiftLeft<16>(channel(linear.blue));
+        return hn::Or(red, hn::Or(green, blue));
     }
 
 private:
-#if HWY_TARGET != HWY_SCALAR
-    [[nodiscard]] static HWY_INLINE hn::VFromD<DU> twice_in_halves(hn::VFromD<DI> fraction) {
-        const auto bits = hn::BitCast(DU{}, fraction);
-        return hn::Or(bits, hn::ShiftLeft<16>(bits));
+    [[nodiscard]] HWY_INLINE hn::VFromD<DU> channel(hn::VFromD<DU> linear15) const {
+        const VF value = hn::Add(hn::ConvertTo(DF{}, hn::BitCast(DI{}, linear15)), hn::Set(DF{}, 1.0F));
+        const auto entry = hn::ShiftRight<22>(hn::BitCast(DU{}, value));
+        VF sum = hn::Add(hn::Mul(coefficient(parabolas_.second, entry), value), coefficient(parabolas_.first, entry));
+        sum = hn::Add(hn::Mul(sum, value), coefficient(parabolas_.constant, entry));
+        return hn::BitCast(DU{}, hn::Add(sum, hn::Set(DF{}, kRoundingOffset)));
     }
 
-    // The pixels of a quarter of the lanes; each one's channels in the lower half of its block.
-    HWY_INLINE hn::Vec<hn::ScalableTag<std::uint64_t> > read_blocks(const std::int32_t* taps, int quarter,
-                                                                    hn::VFromD<DU> across, hn::VFromD<DU> down) const {
-        const hn::ScalableTag<std::int16_t> d16;
-        constexpr int kBlocks = HWY_MAX_BYTES / 16;
-        const std::int32_t* first = taps + quarter * kBlocks;
-        const auto pixel =
-            hn::IndicesFromVec(DF{}, hn::Add(hn::ShiftRight<2>(hn::Iota(DI{}, 0)), hn::Set(DI{}, quarter * kBlocks)));
-        const auto fx = hn::BitCast(d16, hn::TableLookupLanes(hn::BitCast(DF{}, across), pixel));
-        const auto fy = hn::BitCast(d16, hn::TableLookupLanes(hn::BitCast(DF{}, down), pixel));
-        const auto above = hn::BitCast(d16, load_blocks(linear_, first));
-        const auto below = hn::BitCast(d16, load_blocks(linear_ + size_px_.x, first));
-        const auto pair = hn::Add(above, hn::MulFixedPoint15(hn::Sub(below, above), fy));
-        const auto right = hn::BitCast(d16, hn::ShiftRightLanes<4>(d16, pair));
-        const auto mixed = hn::Add(pair, hn::MulFixedPoint15(hn::Sub(right, pair), fx));
-        return hn::BitCast(hn::ScalableTag<std::uint64_t>{}, mixed);
-    }
-
-    [[nodiscard]] static HWY_INLINE hn::Vec<hn::ScalableTag<std::uint64_t> > load_blocks(const std::uint64_t* base,
-                                                                                         const std::int32_t* taps) {
-        const hn::FixedTag<std::uint64_t, 2> d128;
-#if HWY_MAX_BYTES == 64
-        const hn::FixedTag<std::uint64_t, 4> d256;
-        const auto low = hn::Combine(d256, hn::LoadU(d128, base + taps[1]), hn::LoadU(d128, base + taps[0]));
-        const auto high = hn::Combine(d256, hn::LoadU(d128, base + taps[3]), hn::LoadU(d128, base + taps[2]));
-        return hn::Combine(hn::ScalableTag<std::uint64_t>{}, high, low);
-#elif HWY_MAX_BYTES == 32
-        return hn::Combine(hn::ScalableTag<std::uint64_t>{}, hn::LoadU(d128, base + taps[1]),
-                           hn::LoadU(d128, base + taps[0]));
+    // `entry` is 254 too large.
+    [[nodiscard]] static HWY_INLINE VF coefficient(const std::array<float, 32>& table, hn::VFromD<DU> entry) {
+#if LW_HAS_WIDE_LOOKUPS
+        // Lookups take the lowest five bits, and 254 is 30 beyond 7 * 32: the table begins two entries late.
+        const __m512 low = _mm512_load_ps(table.data());
+        const __m512 high = _mm512_load_ps(table.data() + 16);
+        return VF{_mm512_permutex2var_ps(low, _mm512_add_epi32(entry.raw, _mm512_set1_epi32(2)), high)};
 #else
-        return hn::LoadU(d128, base + taps[0]);
-#endif
-    }
-#endif
-
-    [[nodiscard]] HWY_INLINE hn::VFromD<DU> encoded_channel(hn::VFromD<DU> linear15) const {
-        const VF value = hn::ConvertTo(DF{}, hn::BitCast(DI{}, linear15));
-        const auto exponent =
-            hn::Sub(hn::BitCast(DI{}, hn::ShiftRight<23>(hn::BitCast(DU{}, value))), hn::Set(DI{}, 127));
-        const auto octave = hn::Max(exponent, hn::Zero(DI{}));
-        const VF third = coefficient(cubics_.third, octave);
-        const VF second = coefficient(cubics_.second, octave);
-        const VF first = coefficient(cubics_.first, octave);
-        const VF constant = coefficient(cubics_.constant, octave);
-        VF sum = hn::Add(hn::Mul(third, value), second);
-        sum = hn::Add(hn::Mul(sum, value), first);
-        sum = hn::Add(hn::Mul(sum, value), constant);
-        return hn::BitCast(DU{}, hn::ConvertTo(DI{}, hn::Add(sum, hn::Set(DF{}, 0.5F))));
-    }
-
-    [[nodiscard]] static HWY_INLINE VF coefficient(const std::array<float, 16>& table, hn::VFromD<DI> octave) {
-#if HWY_TARGET == HWY_AVX3 || HWY_TARGET == HWY_AVX3_DL
-        return hn::TableLookupLanes(hn::LoadU(DF{}, table.data()), hn::IndicesFromVec(DF{}, octave));
-#else
-        return hn::GatherIndex(DF{}, table.data(), octave);
+        const auto at = hn::Sub(hn::BitCast(DI{}, entry), hn::Set(DI{}, 254));
+        return hn::GatherIndex(DF{}, table.data(), at);
 #endif
     }
 
-    const std::uint64_t* linear_;
-    glm::ivec2 size_px_;
-    const SrgbCubics& cubics_;
-    const std::uint8_t* encode_;  // the same curve as a table, for reads one by one
+    const SrgbParabolas& parabolas_;
 };
 
 }  // namespace lw::HWY_NAMESPACE

@@ -1,5 +1,6 @@
 #include "warp_server/methods/surface_split.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "warp_server/methods/surface_tolerances.h"
@@ -49,6 +50,42 @@ void split_patch(const PatchList& list, std::uint32_t index, PatchList& parts) {
             parts.bottom.push_back(y.last - from_y);
             parts.object_id.push_back(list.object_id[index]);
             parts.corners.push_back(list.corners[index]);
+        }
+    }
+}
+
+void split_tile(const SurfaceTiles& tiles, std::size_t index, PatchList& whole, PatchList& edges) {
+    const PatchList& list = tiles.surfaces;
+    for (int row = 0; row < kTileSize; ++row) {
+        const std::uint32_t cells =
+            tiles.cells[index * static_cast<std::size_t>(kTileSize) + static_cast<std::size_t>(row)];
+        const auto corners_at = [&](int column) {
+            return static_cast<std::uint8_t>(column < kTileSize ? cells >> (4 * column) & kAllCorners : 0);
+        };
+        int end = 0;
+        for (int column = 0; column < kTileSize; column = end) {
+            end = column + 1;
+            const std::uint8_t corners = corners_at(column);
+            if (corners == 0) continue;
+            const bool is_whole = corners == kAllCorners;
+            while (is_whole && corners_at(end) == kAllCorners) ++end;
+            PatchList& parts = is_whole ? whole : edges;
+            const float overlap = is_whole ? kPatchOverlapPx : kEdgeOverlapPx;
+            const auto from_x = static_cast<float>(column);
+            const auto from_y = static_cast<float>(row);
+            parts.x.push_back(list.x[index] + from_x);
+            parts.y.push_back(list.y[index] + from_y);
+            parts.depth.push_back(list.depth[index] + from_x * list.gradient_x[index] +
+                                  from_y * list.gradient_y[index]);
+            parts.gradient_x.push_back(list.gradient_x[index]);
+            parts.gradient_y.push_back(list.gradient_y[index]);
+            // Cells end as the tile does there: at the rim of the image half a pixel off.
+            parts.left.push_back(column > 0 ? -overlap : (is_whole ? list.left : tiles.edge_left)[index]);
+            parts.top.push_back(row > 0 ? -overlap : (is_whole ? list.top : tiles.edge_top)[index]);
+            parts.right.push_back(std::min(static_cast<float>(end - column) + overlap, list.right[index] - from_x));
+            parts.bottom.push_back(std::min(1.0F + overlap, list.bottom[index] - from_y));
+            parts.object_id.push_back(list.object_id[index]);
+            parts.corners.push_back(corners);
         }
     }
 }

@@ -1,0 +1,109 @@
+#include "warp_server/methods/linear_kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "warp_server/methods/linear_kernels.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as it asks.
+#include <hwy/highway.h>
+
+#include <algorithm>
+
+#include "warp_server/methods/lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+namespace {
+
+// One row of one or more pixels.
+void linearise_one_by_one(const Rgba8* pixels, std::size_t count, const std::uint16_t* linear, std::uint16_t* out,
+                          std::size_t channel_stride) {
+    for (std::size_t x = 0; x < count; ++x) {
+        out[x] = linear[pixels[x].r];
+        out[x + channel_stride] = linear[pixels[x].g];
+        out[x + 2 * channel_stride] = linear[pixels[x].b];
+    }
+}
+
+#if LW_HAS_WIDE_LOOKUPS
+
+// Thirty-two bytes of one channel, looked up among the 256 entries of the table: 64 at a time, chosen by their two top
+// bits.
+class ChannelLookup {
+public:
+    explicit ChannelLookup(const std::uint16_t* linear) {
+        for (std::size_t i = 0; i < 8; ++i) part_[i] = _mm512_loadu_si512(linear + 32 * i);
+    }
+    // `at` in 16-bit lanes, 0 to 255.
+    [[nodiscard]] HWY_INLINE __m512i operator()(__m512i at) const {
+        const __mmask32 upper = _mm512_test_epi16_mask(at, _mm512_set1_epi16(128));
+        const __mmask32 odd = _mm512_test_epi16_mask(at, _mm512_set1_epi16(64));
+        const __m512i first = _mm512_permutex2var_epi16(part_[0], at, part_[1]);
+        const __m512i second = _mm512_permutex2var_epi16(part_[2], at, part_[3]);
+        const __m512i third = _mm512_permutex2var_epi16(part_[4], at, part_[5]);
+        const __m512i fourth = _mm512_permutex2var_epi16(part_[6], at, part_[7]);
+        const __m512i low = _mm512_mask_blend_epi16(odd, first, second);
+        const __m512i high = _mm512_mask_blend_epi16(odd, third, fourth);
+        return _mm512_mask_blend_epi16(upper, low, high);
+    }
+
+private:
+    __m512i part_[8];
+};
+
+// As many pixels of the row as fill vectors; returns how many.
+std::size_t linearise_many(const Rgba8* pixels, std::size_t count, const std::uint16_t* linear, std::uint16_t* out,
+                           std::size_t channel_stride) {
+    constexpr std::size_t kPixels = 32;
+    const ChannelLookup lookup{linear};
+    const __m512i byte = _mm512_set1_epi32(0xFF);
+    std::size_t x = 0;
+    for (; x + kPixels <= count; x += kPixels) {
+        const __m512i first = _mm512_loadu_si512(pixels + x);
+        const __m512i second = _mm512_loadu_si512(pixels + x + kPixels / 2);
+        for (unsigned channel = 0; channel < 3; ++channel) {
+            const __m256i low = _mm512_cvtepi32_epi16(_mm512_and_si512(_mm512_srli_epi32(first, 8 * channel), byte));
+            const __m256i high = _mm512_cvtepi32_epi16(_mm512_and_si512(_mm512_srli_epi32(second, 8 * channel), byte));
+            const __m512i at = _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+            _mm512_storeu_si512(out + channel * channel_stride + x, lookup(at));
+        }
+    }
+    return x;
+}
+
+#else
+
+std::size_t linearise_many(const Rgba8*, std::size_t, const std::uint16_t*, std::uint16_t*, std::size_t) { return 0; }
+
+#endif
+
+void linearise_here(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, std::uint16_t* out,
+                    std::ptrdiff_t channel_stride) {
+    const auto width = static_cast<std::size_t>(image.width());
+    const auto stride = static_cast<std::size_t>(channel_stride);
+    for (int y = 0; y < image.height(); ++y) {
+        const Rgba8* row = image.row(y).data();
+        const std::size_t done = linearise_many(row, width, linear.data(), out, stride);
+        linearise_one_by_one(row + done, width - done, linear.data(), out + done, stride);
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            std::fill(out + channel * stride + width, out + (channel + 1) * stride, std::uint16_t{0});
+        }
+        out += 3 * stride;
+    }
+}
+
+}  // namespace
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lw {
+
+HWY_EXPORT(linearise_here);
+
+void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, std::uint16_t* out,
+               std::ptrdiff_t channel_stride) {
+    HWY_DYNAMIC_DISPATCH(linearise_here)(image, linear, out, channel_stride);
+}
+
+}  // namespace lw
+#endif

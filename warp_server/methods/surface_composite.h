@@ -1,0 +1,41 @@
+#pragma once
+/// Putting together the surfaces that meet in one pixel, for many pixels at once; compiled for every instruction set
+/// and chosen at run time, the same bytes on all.
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+
+#include "core/image.h"
+
+namespace lw {
+
+/// A surface that covers a share of a pixel.
+struct alignas(32) SurfaceFragment {
+    glm::vec3 linear;  ///< 0 to kLinearOne
+    float depth;
+    float coverage;       ///< in (0, 1]
+    std::int32_t next;    ///< index of the pixel's fragment before, or -1
+    std::uint32_t pixel;  ///< number in the picture
+};
+
+/// Lists of fragments per pixel, and what is behind them.
+struct FragmentLists {
+    std::span<const SurfaceFragment> fragments;
+    std::int32_t* newest;  ///< of each pixel: its newest fragment; reset to -1 when the pixel is done
+    float* depths;         ///< of what is opaque, negative where nothing is
+    Rgba8* colours;
+};
+
+/// Pixels with more fragments go one by one.
+inline constexpr int kMostFragmentsAtOnce = 4;
+
+/// Composites the pixels `touched`: nearest first, each over what is behind it; the farthest surface takes what is left
+/// where nothing is opaque, because the surfaces of one place fill it together. A pixel of which less than half is
+/// covered stays as it is. Those with more than kMostFragmentsAtOnce are left alone and moved to the front of
+/// `touched`.
+/// @return how many were left
+[[nodiscard]] std::size_t composite_fragments(const FragmentLists& lists, std::span<std::uint32_t> touched);
+
+}  // namespace lw

@@ -1,0 +1,259 @@
+/// Single pixels of `surface`, collected until they fill vectors: reading and encoding colours costs the same for one
+/// as for a vector full.
+
+// Once per instruction set: the guard toggles where `#pragma once` would read this file only the first time.
+#if defined(LW_WARP_SERVER_METHODS_SURFACE_QUEUES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef LW_WARP_SERVER_METHODS_SURFACE_QUEUES_H
+#undef LW_WARP_SERVER_METHODS_SURFACE_QUEUES_H
+#else
+#define LW_WARP_SERVER_METHODS_SURFACE_QUEUES_H
+#endif
+
+#include <algorithm>
+#include <cstddef>
+
+#include "warp_server/methods/lanes.h"
+#include "warp_server/methods/surface_canvas.h"
+#include "warp_server/methods/surface_sampling.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+
+/// Places in a queue's arrays: a batch, and room for the vector that fills it and what a store writes beyond.
+inline constexpr std::size_t kBatch = 16 * kMaxLanes;
+inline constexpr std::size_t kQueueRoom = kBatch + 2 * kMaxLanes;
+
+/// Appends the lanes `wanted` to `to`, whose lanes beyond are overwritten too.
+template <class D, class T, class M>
+HWY_INLINE void append_lanes(D d, hn::VFromD<D> values, M wanted, T* to) {
+    hn::StoreU(hn::Compress(values, hn::RebindMask(d, wanted)), d, to);
+}
+
+/// Runs of opaque pixels in a row whose depth is written already. Reading and encoding one run waits for one result
+/// after the other; many runs in turn wait for none.
+class RunQueue {
+public:
+    RunQueue(const ColourReader& reader, const ColourEncoder& encoder, DisplayFrame& out)
+        : reader_{reader}, encoder_{encoder}, colours_{reinterpret_cast<std::uint32_t*>(out.colour.pixels().data())} {}
+
+    /// The lanes whose bits are in `wanted`, of the pixels from number `pixel` on, show the source at the taps.
+    HWY_INLINE void push(std::uint32_t wanted, std::size_t pixel, const Taps& taps) {
+        Run& run = runs_[count_++];
+        run.wanted = wanted;
+        run.pixel = pixel;
+        hn::Store(taps.x, DI{}, run.x);
+        hn::Store(taps.y, DI{}, run.y);
+        hn::Store(taps.fx, DI{}, run.fx);
+        hn::Store(taps.fy, DI{}, run.fy);
+        if (count_ == kRuns) flush();
+    }
+
+    HWY_NOINLINE void flush() {
+        for (std::size_t i = 0; i < count_; ++i) read(runs_[i]);
+        for (std::size_t i = 0; i < count_; ++i) {
+            const Run& run = runs_[i];
+            const LinearColours linear{hn::Load(DU{}, run.red), hn::Load(DU{}, run.green), hn::Load(DU{}, run.blue)};
+            const auto wanted = lanes_of_bits(DU{}, run.wanted);
+            hn::BlendedStore(encoder_.encoded(linear), wanted, DU{}, colours_ + run.pixel);
+        }
+        count_ = 0;
+    }
+
+private:
+    static constexpr std::size_t kRuns = 16;
+
+    struct Run {
+        HWY_ALIGN std::int32_t x[kMaxLanes];
+        HWY_ALIGN std::int32_t y[kMaxLanes];
+        HWY_ALIGN std::int32_t fx[kMaxLanes];
+        HWY_ALIGN std::int32_t fy[kMaxLanes];
+        HWY_ALIGN std::uint32_t red[kMaxLanes];
+        HWY_ALIGN std::uint32_t green[kMaxLanes];
+        HWY_ALIGN std::uint32_t blue[kMaxLanes];
+        std::size_t pixel;
+        std::uint32_t wanted;
+    };
+
+    HWY_INLINE void read(Run& run) const {
+        const Taps taps{hn::Load(DI{}, run.x), hn::Load(DI{}, run.y), hn::Load(DI{}, run.fx), hn::Load(DI{}, run.fy)};
+        LinearColours linear;
+#if LW_HAS_WIDE_LOOKUPS
+        // Along a line in the source, so that its ends hold the smallest values; where rounding has it otherwise the
+        // run is read one by one.
+        const auto first = static_cast<unsigned>(__builtin_ctz(run.wanted));
+        const auto last = 31U - static_cast<unsigned>(__builtin_clz(run.wanted));
+        const bool is_short =
+            reader_.read_run(taps, lanes_of_bits(DU{}, run.wanted), std::min(run.x[first], run.x[last]),
+                             std::min(run.y[first], run.y[last]), linear);
+        if (!is_short) linear = reader_.read(taps);
+#else
+        linear = reader_.read(taps);
+#endif
+        hn::Store(linear.red, DU{}, run.red);
+        hn::Store(linear.green, DU{}, run.green);
+        hn::Store(linear.blue, DU{}, run.blue);
+    }
+
+    const ColourReader& reader_;
+    const ColourEncoder& encoder_;
+    std::uint32_t* colours_;
+    std::size_t count_ = 0;
+    Run runs_[kRuns];
+};
+
+/// Opaque pixels: shown where nothing nearer is.
+class PixelQueue {
+public:
+    /// What is in `runs` is shown first.
+    PixelQueue(const ColourReader& reader, const ColourEncoder& encoder, RunQueue& runs, DisplayFrame& out)
+        : reader_{reader},
+          encoder_{encoder},
+          runs_{runs},
+          depths_{out.depth.pixels().data()},
+          colours_{reinterpret_cast<std::uint32_t*>(out.colour.pixels().data())} {}
+
+    /// The lanes `wanted`: target pixel number `pixel` of depth `depth` shows the source at x, y, in pixels from the
+    /// centre of its first one.
+    template <class M>
+    HWY_INLINE void push(M wanted, hn::VFromD<DI> pixel, VF depth, VF x, VF y) {
+        append_lanes(DI{}, pixel, wanted, pixel_ + count_);
+        append_lanes(DF{}, depth, wanted, depth_ + count_);
+        append_lanes(DF{}, x, wanted, x_ + count_);
+        append_lanes(DF{}, y, wanted, y_ + count_);
+        count_ += hn::CountTrue(DF{}, wanted);
+        if (count_ >= kBatch) flush();
+    }
+
+    HWY_NOINLINE void flush() {
+        runs_.flush();
+        const std::size_t lanes = hn::Lanes(DF{});
+        hn::StoreU(hn::Zero(DF{}), DF{}, x_ + count_);  // what a store left beyond the end may be no place at all
+        hn::StoreU(hn::Zero(DF{}), DF{}, y_ + count_);
+        HWY_ALIGN std::uint32_t colours[kMaxLanes];
+        for (std::size_t i = 0; i < count_; i += lanes) {
+            const Taps taps = reader_.taps_of(hn::Load(DF{}, x_ + i), hn::Load(DF{}, y_ + i));
+            hn::Store(encoder_.encoded(reader_.read(taps)), DU{}, colours);
+            const std::size_t end = std::min(lanes, count_ - i);
+            for (std::size_t lane = 0; lane < end; ++lane) {
+                const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
+                if (depths_[pixel] >= depth_[i + lane]) continue;
+                depths_[pixel] = depth_[i + lane];
+                colours_[pixel] = colours[lane];
+            }
+        }
+        count_ = 0;
+    }
+
+private:
+    const ColourReader& reader_;
+    const ColourEncoder& encoder_;
+    RunQueue& runs_;
+    float* depths_;
+    std::uint32_t* colours_;
+    std::size_t count_ = 0;
+    HWY_ALIGN std::int32_t pixel_[kQueueRoom];
+    HWY_ALIGN float depth_[kQueueRoom];
+    HWY_ALIGN float x_[kQueueRoom];
+    HWY_ALIGN float y_[kQueueRoom];
+};
+
+/// Pixels in cells where surfaces meet: each surface weighs its own corners alone, and covers as much as they weigh.
+class FragmentQueue {
+public:
+    FragmentQueue(const ColourReader& reader, glm::ivec2 source_size_px, SurfaceCanvas& canvas)
+        : reader_{reader}, last_x_{source_size_px.x - 1}, last_y_{source_size_px.y - 1}, canvas_{canvas} {}
+
+    /// The lanes `wanted`: target pixel number `pixel` of depth `depth` shows the surface that owns `corners` (bits
+    /// 1 << corner) of the source's cell at x, y, at the place u, v in it; what is outside of the cell counts as its
+    /// rim.
+    template <class M>
+    HWY_INLINE void push(M wanted, hn::VFromD<DI> pixel, VF depth, hn::VFromD<DI> x, hn::VFromD<DI> y, VF u, VF v,
+                         hn::VFromD<DI> corners) {
+        append_lanes(DI{}, pixel, wanted, pixel_ + count_);
+        append_lanes(DF{}, depth, wanted, depth_ + count_);
+        append_lanes(DI{}, x, wanted, x_ + count_);
+        append_lanes(DI{}, y, wanted, y_ + count_);
+        append_lanes(DF{}, u, wanted, u_ + count_);
+        append_lanes(DF{}, v, wanted, v_ + count_);
+        append_lanes(DI{}, corners, wanted, corners_ + count_);
+        count_ += hn::CountTrue(DF{}, wanted);
+        if (count_ >= kBatch) flush();
+    }
+
+    HWY_NOINLINE void flush() {
+        hn::StoreU(hn::Zero(DI{}), DI{}, x_ + count_);  // what a store left beyond the end may be no cell at all
+        hn::StoreU(hn::Zero(DI{}), DI{}, y_ + count_);
+        canvas_.reserve_fragments(count_);
+        for (std::size_t i = 0; i < count_; i += hn::Lanes(DF{})) flush_vector(i);
+        count_ = 0;
+    }
+
+private:
+    static constexpr float kSmallestCoverage = 1.0F / 512.0F;  // less changes no 8-bit colour
+
+    HWY_INLINE void flush_vector(std::size_t i) {
+        const VF one = hn::Set(DF{}, 1.0F);
+        const auto x = hn::Load(DI{}, x_ + i);
+        const auto y = hn::Load(DI{}, y_ + i);
+        // Beyond the last column and row the last pixels count again.
+        const auto place = [&](const float* values, hn::VFromD<DI> cell, int last) {
+            const VF room = hn::ConvertTo(DF{}, hn::Sub(hn::Set(DI{}, last), cell));
+            return hn::Min(hn::Max(hn::Load(DF{}, values + i), hn::Zero(DF{})), hn::Min(room, one));
+        };
+        const VF u = place(u_, x, last_x_);
+        const VF v = place(v_, y, last_y_);
+        const auto corners = hn::Load(DI{}, corners_ + i);
+        const auto own = [&](int corner, VF weight) {
+            return hn::IfThenElseZero(hn::RebindMask(DF{}, hn::TestBit(corners, hn::Set(DI{}, 1 << corner))), weight);
+        };
+        const VF weight0 = own(0, hn::Mul(hn::Sub(one, u), hn::Sub(one, v)));
+        const VF weight1 = own(1, hn::Mul(u, hn::Sub(one, v)));
+        const VF weight2 = own(2, hn::Mul(hn::Sub(one, u), v));
+        const VF weight3 = own(3, hn::Mul(u, v));
+        const VF coverage = hn::Add(hn::Add(weight0, weight1), hn::Add(weight2, weight3));
+        const VF scale = hn::Div(one, coverage);
+        const Taps taps{x, y, hn::Zero(DI{}), hn::Zero(DI{})};
+        const auto channel = [&](int index) {
+            const PixelPairs pairs = reader_.pairs_at(taps, index);
+            const auto half = [](hn::VFromD<DU> bits) { return hn::ConvertTo(DF{}, hn::BitCast(DI{}, bits)); };
+            const auto low = hn::Set(DU{}, 0xFFFFU);
+            const VF top = hn::Add(hn::Mul(weight0, half(hn::And(pairs.top, low))),
+                                   hn::Mul(weight1, half(hn::ShiftRight<16>(pairs.top))));
+            const VF bottom = hn::Add(hn::Mul(weight2, half(hn::And(pairs.bottom, low))),
+                                      hn::Mul(weight3, half(hn::ShiftRight<16>(pairs.bottom))));
+            return hn::Mul(hn::Add(top, bottom), scale);
+        };
+        HWY_ALIGN float covered[kMaxLanes];
+        HWY_ALIGN float red[kMaxLanes];
+        HWY_ALIGN float green[kMaxLanes];
+        HWY_ALIGN float blue[kMaxLanes];
+        hn::Store(coverage, DF{}, covered);
+        hn::Store(channel(0), DF{}, red);
+        hn::Store(channel(1), DF{}, green);
+        hn::Store(channel(2), DF{}, blue);
+        const std::size_t end = std::min(hn::Lanes(DF{}), count_ - i);
+        for (std::size_t lane = 0; lane < end; ++lane) {
+            const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
+            if (covered[lane] < kSmallestCoverage) continue;
+            canvas_.put_fragment(pixel, depth_[i + lane], covered[lane], {red[lane], green[lane], blue[lane]});
+        }
+    }
+
+    const ColourReader& reader_;
+    int last_x_;
+    int last_y_;
+    SurfaceCanvas& canvas_;
+    std::size_t count_ = 0;
+    HWY_ALIGN std::int32_t pixel_[kQueueRoom];
+    HWY_ALIGN float depth_[kQueueRoom];
+    HWY_ALIGN std::int32_t x_[kQueueRoom];
+    HWY_ALIGN std::int32_t y_[kQueueRoom];
+    HWY_ALIGN float u_[kQueueRoom];
+    HWY_ALIGN float v_[kQueueRoom];
+    HWY_ALIGN std::int32_t corners_[kQueueRoom];
+};
+
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -36,6 +36,8 @@ lw::Status run(const lw::Options& options) {
             return lw::run_warp(options);
         case lw::Subcommand::compare:
             return lw::run_compare(options);
+        case lw::Subcommand::bench:
+            return lw::run_bench(options);
         case lw::Subcommand::generate:
             return lw::run_generate(options);
         case lw::Subcommand::info:

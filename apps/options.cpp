@@ -1,10 +1,11 @@
 #include "apps/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <sstream>
 
+#include "apps/option_declarer.h"
+#include "apps/option_groups.h"
 #include "apps/option_values.h"
 #include "frame_link/prediction.h"
 #include "frame_link/trace.h"
@@ -16,49 +17,6 @@ namespace lw {
 namespace {
 
 using namespace option_values;
-
-/// Declares options of one subcommand. Values are parsed here and not by the library: one wording for all errors.
-class Declarer {
-public:
-    Declarer(CLI::App& app, Options& options) : app_{app}, options_{options} {}
-
-    template <class Parse>
-    CLI::Option* value(const std::string& names, const std::string& type, const std::string& help, Parse parse) {
-        return app_.add_option_function<std::string>(names, parse, help)->type_name(type)->take_last();
-    }
-    template <class Target>
-    void number(const std::string& name, const std::string& type, const Range& range, Target& target,
-                const std::string& help) {
-        value(name, type, help, [name, range, &target](const std::string& text) {
-            if constexpr (std::is_same_v<Target, std::optional<double>>) {
-                target = number_in(name, text, range);
-            } else {
-                target = static_cast<Target>(number_in(name, text, range));
-            }
-        });
-    }
-    template <class Add>
-    void repeated(const std::string& name, const std::string& type, const std::string& help, Add add) {
-        app_.add_option_function<std::vector<std::string>>(
-                name,
-                [add](const std::vector<std::string>& texts) {
-                    for (const std::string& text : texts) add(text);
-                },
-                help)
-            ->type_name(type)
-            ->allow_extra_args(false);
-    }
-    CLI::Option* path(const std::string& name, const std::string& type, std::filesystem::path& target,
-                      const std::string& help) {
-        return value(name, type, help, [name, &target](const std::string& text) { target = parsed_path(name, text); });
-    }
-    CLI::App& app() { return app_; }
-    Options& options() { return options_; }
-
-private:
-    CLI::App& app_;
-    Options& options_;
-};
 
 void declare_scene(Declarer& declare, bool required) {
     Options& options = declare.options();
@@ -194,10 +152,11 @@ void declare_truth(Declarer& declare) {
                   });
 }
 
-void declare_reports(Declarer& declare) {
+void declare_reports(Declarer& declare, bool frames) {
     Options& options = declare.options();
     declare.path("--out", "DIR", options.out, "folder for reports and images, made if missing");
     declare.path("--report", "FILE.json", options.report, "the JSON report");
+    if (!frames) return;
     declare.app().add_flag("--save-frames", options.save_frames, "keep every image in the --out folder");
 }
 
@@ -217,7 +176,7 @@ void declare_live(Declarer declare) {
     declare_method(declare);
     declare_timing(declare);
     declare_truth(declare);
-    declare_reports(declare);
+    declare_reports(declare, true);
     declare_parameters(declare);
     declare_common(declare);
 }
@@ -232,7 +191,7 @@ void declare_replay(Declarer declare) {
     declare_baselines(declare);
     declare_timing(declare);
     declare_truth(declare);
-    declare_reports(declare);
+    declare_reports(declare, true);
     declare_parameters(declare);
     declare_common(declare);
 }
@@ -293,6 +252,12 @@ void declare_generate(Declarer declare) {
     declare_common(declare);
 }
 
+void declare_bench(Declarer declare) {
+    declare_bench_run(declare);
+    declare_reports(declare, false);
+    declare_common(declare);
+}
+
 void declare_info(Declarer declare) {
     declare.path("FILE", "", declare.options().input, "scene file, frame folder or trace")->required();
     declare_common(declare);
@@ -313,6 +278,7 @@ constexpr std::array kSubcommands = {
     SubcommandEntry{Subcommand::render, "render", "The truth image at a pose, and the client's frame", declare_render},
     SubcommandEntry{Subcommand::warp, "warp", "A frame folder warped to a pose", declare_warp},
     SubcommandEntry{Subcommand::compare, "compare", "PSNR, SSIM and FLIP of two images, as JSON", declare_compare},
+    SubcommandEntry{Subcommand::bench, "bench", "Run time against error, measured on this machine", declare_bench},
     SubcommandEntry{Subcommand::generate, "generate", "A built-in scene as a .glb file", declare_generate},
     SubcommandEntry{Subcommand::info, "info", "What is in a scene, a frame folder or a trace", declare_info},
 };

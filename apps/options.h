@@ -18,7 +18,7 @@ namespace lw {
 
 inline constexpr double kRadPerDeg = 3.14159265358979323846 / 180.0;  ///< angles are degrees on the command line only
 
-enum class Subcommand : std::uint8_t { demo, measure, replay, render, warp, compare, generate, info };
+enum class Subcommand : std::uint8_t { demo, measure, replay, render, warp, compare, bench, generate, info };
 
 /// Which head pose the client draws for (--source-pose).
 enum class SourcePose : std::uint8_t {
@@ -74,6 +74,10 @@ struct Options {
     std::filesystem::path report;     ///< --report, file for the JSON report; empty if not given
     bool save_frames = false;         ///< --save-frames
     double pixels_per_degree = 67.0;  ///< --ppd of compare
+
+    std::string bench_suite = "warp";              ///< --suite of bench
+    bool quick = false;                            ///< --quick of bench: at most three minutes
+    std::filesystem::path data{"../shared/data"};  ///< --data of bench: recorded traces and models; may be missing
 
     std::optional<std::uint64_t> seed;  ///< --seed
     int threads = 0;                    ///< --threads, [1, 256]; 0: as many as the machine has

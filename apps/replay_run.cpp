@@ -1,10 +1,10 @@
 #include "apps/replay_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <thread>
+
+#include "apps/parallel.h"
 
 namespace lw {
 
@@ -36,20 +36,6 @@ Camera camera_at(const Options& options, const Pose& world_from_eye) {
     Camera camera = options.camera();
     camera.world_from_eye = world_from_eye;
     return camera;
-}
-
-/// Calls work(i) for every i in [0, count) on up to `threads` threads.
-template <class Work>
-void for_each_in_parallel(std::size_t count, int threads, Work work) {
-    std::atomic<std::size_t> next{0};
-    const auto take_turns = [&] {
-        for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    std::vector<std::thread> others;
-    const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
-    for (std::size_t i = 1; i < wanted; ++i) others.emplace_back(take_turns);
-    take_turns();
-    for (std::thread& thread : others) thread.join();
 }
 
 }  // namespace
@@ -187,8 +173,7 @@ RefreshRecord ReplayRun::judge() const {
     RefreshRecord record = record_;
     record.errors.resize(labels_.size());
     const double ppd = pixels_per_degree();
-    const int cores = static_cast<int>(std::thread::hardware_concurrency());
-    for_each_in_parallel(labels_.size(), options_.threads > 0 ? options_.threads : cores, [&](std::size_t i) {
+    for_each_in_parallel(labels_.size(), options_.threads, [&](std::size_t i) {
         record.errors[i] = errors_against(pictures_.truth, pictures_.shown[i], ppd);
         record.errors[i].hole_fraction = pictures_.hole_fraction[i];
     });

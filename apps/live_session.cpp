@@ -104,11 +104,12 @@ private:
 // Main thread.
 
 Result<LiveResult> LiveSession::run(bool window) {
-    const std::string predictor = options_.predict.value_or("constant-velocity");
+    const std::string predictor = options_.predict.value_or(std::string{kDefaultPredictor});
     for (auto* made : {&server_predictor_, &client_predictor_}) {
         // The client never foresees: the oracle concerns the server.
         const bool is_client = made == &client_predictor_;
-        auto result = make_predictor(is_client && predictor == "oracle" ? "constant-velocity" : predictor);
+        auto result =
+            make_predictor(is_client && predictor == "oracle" ? kDefaultPredictor : std::string_view{predictor});
         if (!result) return result.error();
         *made = std::move(result).value();
     }

@@ -53,7 +53,7 @@ struct Options {
 
     std::optional<double> app_hz;          ///< --app-hz; replay draws at 10 Hz unless given, live as fast as it can
     double display_hz = 90.0;              ///< --display-hz, [1, 1000]
-    std::optional<std::string> predict;    ///< --predict; oracle in replay, constant-velocity live unless given
+    std::optional<std::string> predict;    ///< --predict; oracle in replay, adaptive live unless given
     double tracker_hz = 1000.0;            ///< --tracker-hz, [1, 10000]
     double lead_ms = 5.0;                  ///< --lead: latch this long before scan-out, milliseconds in [0, 1000]
     bool lead_given = false;               ///< live learns its lead unless this is set

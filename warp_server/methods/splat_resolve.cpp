@@ -76,8 +76,11 @@ HWY_INLINE void add_background_row(D d, const SplatInput& input, int first, int 
     const std::size_t at = static_cast<std::size_t>(row) * static_cast<std::size_t>(pixels.depth.width()) +
                            static_cast<std::size_t>(first);
     auto seen = group;
-    if (!input.tiles->is_empty_run(first, first + 2 * static_cast<int>(lanes), row)) {
+    const BackgroundShare share = input.tiles->background_in(first, first + 2 * static_cast<int>(lanes), row);
+    if (share == BackgroundShare::none) return;
+    if (share == BackgroundShare::some) {
         const float* depths = pixels.depth.pixels().data() + at;
+        __builtin_prefetch(depths + pixels.depth.width());
         const ObjectId* ids = pixels.object_id.pixels().data() + at;
         const auto depth = pick(d, hn::LoadU(d, depths), hn::LoadU(d, depths + lanes), offset);
         const auto id =

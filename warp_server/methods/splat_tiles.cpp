@@ -42,6 +42,7 @@ public:
         const auto blocks =
             static_cast<std::size_t>(tiles_->blocks_per_row) * static_cast<std::size_t>(tiles_->size_px.y);
         tiles_->kinds.resize(blocks);
+        tiles_->background.resize(blocks);
         tiles_->objects.resize(blocks);
         plain_.resize(blocks);
     }
@@ -89,6 +90,9 @@ private:
         tiles_->objects[i] = object[0];
         plain_[i] = summary.one_object && summary.all_usable && count == kBlockWidth_px ? 1 : 0;
         tiles_->kinds[i] = summary.background ? BlockKind::empty : BlockKind::mixed;
+        tiles_->background[i] = summary.background        ? BackgroundShare::all
+                                : summary.points == count ? BackgroundShare::none
+                                                          : BackgroundShare::some;
         if (summary.background) return;
         tiles_->points.back() += summary.points;
         if (summary.one_object) {

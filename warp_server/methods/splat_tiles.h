@@ -20,6 +20,9 @@ enum class BlockKind : std::uint8_t {
     mixed,    ///< anything else; each pixel must be asked
 };
 
+/// How many pixels of a block are background of object 0.
+enum class BackgroundShare : std::uint8_t { none, some, all };
+
 /// The part of one object inside one tile.
 struct TilePatch {
     int tile = 0;  ///< column of the tile in its band
@@ -39,19 +42,21 @@ struct SplatTiles final : PreparedLayer {
     glm::ivec2 size_px{0};
     int blocks_per_row = 0;
     std::vector<BlockKind> kinds;                ///< by row, blocks_per_row each
+    std::vector<BackgroundShare> background;     ///< by row, like kinds
     std::vector<ObjectId> objects;               ///< of uniform blocks; else the object of the block's first pixel
     std::vector<TilePatch> patches;              ///< by band
     std::vector<int> first_patch;                ///< of every band, and one more entry for the end
     std::vector<int> points;                     ///< of every band: pixels that are not background
     std::vector<ObjectPixels> pixels_of_object;  ///< by id, up to the largest id there is
 
-    /// Whether the pixels [begin_x, end_x) of row y lie in empty blocks. 0 <= begin_x < end_x <= width.
-    [[nodiscard]] bool is_empty_run(int begin_x, int end_x, int y) const {
-        const BlockKind* row = kinds.data() + static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_per_row);
-        for (int block = begin_x / kBlockWidth_px; block * kBlockWidth_px < end_x; ++block) {
-            if (row[block] != BlockKind::empty) return false;
+    /// What the blocks of the pixels [begin_x, end_x) of row y hold. 0 <= begin_x < end_x <= width.
+    [[nodiscard]] BackgroundShare background_in(int begin_x, int end_x, int y) const {
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_per_row);
+        BackgroundShare all = background[row + static_cast<std::size_t>(begin_x / kBlockWidth_px)];
+        for (int block = begin_x / kBlockWidth_px + 1; block * kBlockWidth_px < end_x; ++block) {
+            if (background[row + static_cast<std::size_t>(block)] != all) all = BackgroundShare::some;
         }
-        return true;
+        return all;
     }
     [[nodiscard]] int bands() const { return static_cast<int>(points.size()); }
     [[nodiscard]] int tiles_per_band() const { return (size_px.x + kTileWidth_px - 1) / kTileWidth_px; }

@@ -23,7 +23,8 @@ struct Extent {
 };
 
 struct BoxReach {
-    bool bounded = false;  // false: some of it may come close to the eye plane and land anywhere
+    enum class Kind : std::uint8_t { behind, bounded, anywhere };
+    Kind kind = Kind::anywhere;  // what comes close to the eye plane may land anywhere
     Extent x;
     Extent y;
 };
@@ -44,7 +45,8 @@ BoxReach reach_of(const Box& box, const PixelMatrix& m) {
         w[i] = m.one.w + at_y * m.y.w + at_x * m.x.w + depth * m.z.w;
         size_of_w[i] = std::abs(m.one.w) + std::abs(at_y * m.y.w) + std::abs(at_x * m.x.w) + std::abs(depth * m.z.w);
     }
-    BoxReach reach{true, {1e9F, -1e9F}, {1e9F, -1e9F}};
+    if (std::all_of(w, w + 8, [](float value) { return value <= 0.0F; })) return {BoxReach::Kind::behind, {}, {}};
+    BoxReach reach{BoxReach::Kind::bounded, {1e9F, -1e9F}, {1e9F, -1e9F}};
     for (int i = 0; i < 8; ++i) {
         if (!(w[i] > kLeastPartOfW * size_of_w[i])) return {};
         reach.x = {std::min(reach.x.least, x[i] / w[i]), std::max(reach.x.greatest, x[i] / w[i])};
@@ -89,8 +91,9 @@ void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, 
                 reach_of({static_cast<float>(x) + 0.5F, static_cast<float>(end_x) - 0.5F, static_cast<float>(y) + 0.5F,
                           static_cast<float>(end_y) - 0.5F, patch.least_depth, patch.greatest_depth},
                          *matrix);
+            if (reach.kind == BoxReach::Kind::behind) continue;
             RowRange rows{0, target_size_px.y};
-            if (reach.bounded) {
+            if (reach.kind == BoxReach::Kind::bounded) {
                 const RowRange columns = pixels_of(reach.x, target_size_px.x);
                 rows = pixels_of(reach.y, target_size_px.y);
                 if (columns.begin >= columns.end || rows.begin >= rows.end) continue;

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "apps/bench_suites.h"
+#include "apps/scene_stage.h"
 #include "apps/subcommands.h"
 
 namespace lw {
@@ -37,6 +38,14 @@ Status write_folder(const std::filesystem::path& folder, const BenchOutput& outp
     return written;
 }
 
+/// A folder that cannot be written must not lose the run.
+void keep_for_later(const BenchOutput& output, bool quiet) {
+    if (output.kept_at.empty()) return;
+    Status kept = make_output_folder(output.kept_at.parent_path());
+    if (kept) kept = output.report.write(output.kept_at);
+    if (!kept) print_warnings({kept.error().message()}, quiet);
+}
+
 }  // namespace
 
 Status run_bench(const Options& options) {
@@ -49,6 +58,7 @@ Status run_bench(const Options& options) {
     output->report.set("suite", options.bench_suite);
     output->report.set("quick", options.quick);
     output->report.set("wall_s", wall.count());
+    keep_for_later(*output, options.quiet);
     if (!options.quiet) std::fputs(output->summary.c_str(), stderr);
     if (!options.report.empty()) {
         const Status written = output->report.write(options.report);

@@ -20,6 +20,15 @@ Report report_of(const ImageErrors& errors) {
     return report;
 }
 
+void add_pairs(Report& report, const std::vector<PairErrors>& pairs) {
+    for (const PairErrors& pair : pairs) {
+        Report entry = report_of(pair.mean);
+        entry.set("scene", pair.scene);
+        entry.set("trace", pair.trace);
+        report.append("pairs", entry);
+    }
+}
+
 void set_conditions(Report& report, const BenchPoint& point) {
     report.set("size_px", point.conditions.size_px);
     report.set("settings/fill", point.fill);
@@ -49,12 +58,7 @@ Report report_of(const BenchPoint& point) {
     } else {
         report.set_null("on_front");
     }
-    for (const PairErrors& pair : point.pairs) {
-        Report entry = report_of(pair.mean);
-        entry.set("scene", pair.scene);
-        entry.set("trace", pair.trace);
-        report.append("pairs", entry);
-    }
+    add_pairs(report, point.pairs);
     return report;
 }
 
@@ -87,25 +91,32 @@ std::optional<Distribution> distribution_at(const Json& json, const char* key) {
     return Distribution{at("mean"), at("min"), at("p5"), at("p50"), at("p95"), at("p99"), at("max")};
 }
 
+std::vector<PairErrors> pairs_of(const Json& json) {
+    std::vector<PairErrors> pairs;
+    if (!json.contains("pairs")) return pairs;
+    for (const Json& pair : json.at("pairs")) {
+        pairs.push_back({pair.at("scene").get<std::string>(), pair.at("trace").get<std::string>(), errors_of(pair)});
+    }
+    return pairs;
+}
+
+glm::ivec2 size_of(const Json& json) {
+    return {json.at("size_px").at(0).get<int>(), json.at("size_px").at(1).get<int>()};
+}
+
 BenchPoint point_of(const Json& json) {
     BenchPoint point;
     const Json& settings = json.at("settings");
     point.method = json.at("method").get<std::string>();
     point.fill = settings.at("fill").get<std::string>();
-    point.conditions = {{json.at("size_px").at(0).get<int>(), json.at("size_px").at(1).get<int>()},
-                        settings.at("frame_age_ms").get<double>(),
-                        settings.at("source_samples").get<int>(),
-                        settings.at("source_density").get<double>()};
+    point.conditions = {size_of(json), settings.at("frame_age_ms").get<double>(),
+                        settings.at("source_samples").get<int>(), settings.at("source_density").get<double>()};
     point.warp_ms = distribution_at(json, "warp_ms");
     point.warp_cpu_ms = number_at(json, "warp_cpu_ms");
     point.prepare_ms = number_at(json, "prepare_ms");
     point.memcpy_ratio = number_at(json, "memcpy_ratio");
     if (json.contains("on_front") && json.at("on_front").is_boolean()) point.on_front = json.at("on_front").get<bool>();
-    if (!json.contains("pairs")) return point;
-    for (const Json& pair : json.at("pairs")) {
-        point.pairs.push_back(
-            {pair.at("scene").get<std::string>(), pair.at("trace").get<std::string>(), errors_of(pair)});
-    }
+    point.pairs = pairs_of(json);
     return point;
 }
 
@@ -116,6 +127,11 @@ BenchData data_of(const Json& json) {
     data.machine.cores = machine.at("cores").get<int>();
     if (machine.at("gl_renderer").is_string()) data.machine.gl_renderer = machine.at("gl_renderer").get<std::string>();
     for (const Json& point : json.at("points")) data.points.push_back(point_of(point));
+    data.processor_per_wall = number_at(json, "processor_per_wall");
+    if (!json.contains("fresh")) return data;
+    for (const Json& fresh : json.at("fresh")) {
+        data.fresh.push_back({size_of(fresh), fresh.at("samples").get<int>(), pairs_of(fresh)});
+    }
     return data;
 }
 
@@ -139,6 +155,17 @@ std::optional<ImageErrors> BenchPoint::errors() const {
     return mean;
 }
 
+bool is_same_setting(const BenchPoint& a, const BenchPoint& b) {
+    return a.method == b.method && a.fill == b.fill && a.conditions == b.conditions;
+}
+
+void copy_times(const BenchPoint& from, BenchPoint& to) {
+    to.warp_ms = from.warp_ms;
+    to.warp_cpu_ms = from.warp_cpu_ms;
+    to.prepare_ms = from.prepare_ms;
+    to.memcpy_ratio = from.memcpy_ratio;
+}
+
 void mark_pareto_fronts(std::vector<BenchPoint>& points) {
     const auto competes = [](const BenchPoint& point) { return point.warp_ms && !point.pairs.empty(); };
     for (BenchPoint& point : points) {
@@ -147,6 +174,18 @@ void mark_pareto_fronts(std::vector<BenchPoint>& points) {
         point.on_front = std::none_of(points.begin(), points.end(), [&](const BenchPoint& other) {
             return competes(other) && other.conditions == point.conditions && beats(other, point);
         });
+    }
+}
+
+void add_fresh(Report& report, const std::vector<FreshErrors>& fresh) {
+    for (const FreshErrors& errors : fresh) {
+        BenchPoint mean;
+        mean.pairs = errors.pairs;
+        Report entry = report_of(*mean.errors());
+        entry.set("size_px", errors.size_px);
+        entry.set("samples", errors.samples);
+        add_pairs(entry, errors.pairs);
+        report.append("fresh", entry);
     }
 }
 

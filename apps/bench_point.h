@@ -48,6 +48,12 @@ struct BenchPoint {
     [[nodiscard]] std::optional<ImageErrors> errors() const;
 };
 
+/// Same method, fill and conditions.
+[[nodiscard]] bool is_same_setting(const BenchPoint& a, const BenchPoint& b);
+
+/// All that was timed, from one point to another.
+void copy_times(const BenchPoint& from, BenchPoint& to);
+
 /// Marks each point that has a time and errors: on the front unless another of equal conditions is at most as slow
 /// (median of warp_ms) and at most as wrong (FLIP), and better in one of both. Others keep no mark. Pure.
 void mark_pareto_fronts(std::vector<BenchPoint>& points);
@@ -55,9 +61,22 @@ void mark_pareto_fronts(std::vector<BenchPoint>& points);
 /// Appends every point to `points` of the report. Keys as in docs/benchmarks.md.
 void add_points(Report& report, const std::vector<BenchPoint>& points);
 
+/// What a machine of any speed without latency would show: the display's picture drawn at photon time, with one sample
+/// per pixel (`fresh`) or with the source's (`fresh-same`).
+struct FreshErrors {
+    glm::ivec2 size_px{};
+    int samples = 1;
+    std::vector<PairErrors> pairs;
+};
+
+/// Appends all to `fresh` of the report.
+void add_fresh(Report& report, const std::vector<FreshErrors>& fresh);
+
 struct BenchData {
     Machine machine;
     std::vector<BenchPoint> points;
+    std::vector<FreshErrors> fresh;            ///< may be empty
+    std::optional<double> processor_per_wall;  ///< while the times were taken: 1 on a quiet machine
 };
 
 /// Reads a report of `bench --suite warp`. Anything else is an error whose mend is to run the suite.

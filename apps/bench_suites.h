@@ -25,6 +25,9 @@ struct BenchOutput {
     /// Written as SVG files NAME.svg beside the page, which may show them too.
     std::vector<std::pair<std::string, SvgPlot>> plots;
     std::string summary;  ///< a few lines for standard error, each ended
+    /// File that the JSON report goes to besides, its folder made if missing; empty: none. That it cannot be written is
+    /// a warning.
+    std::filesystem::path kept_at;
 };
 
 struct BenchSuite {

@@ -5,7 +5,10 @@ namespace lw {
 
 class Declarer;
 
-/// --suite, --quick, --data: what `bench` measures, and on what.
+/// --suite, --quick, --data, --part, --merge: what `bench` measures, and on what.
 void declare_bench_run(Declarer& declare);
+
+/// --error-cap, --budget-ms, --bench-data: what `--method auto` chooses by.
+void declare_autotune(Declarer& declare);
 
 }  // namespace lw

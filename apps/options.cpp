@@ -54,15 +54,17 @@ void declare_camera(Declarer& declare) {
 
 void declare_method(Declarer& declare) {
     Options& options = declare.options();
-    declare.value("--method", "METHOD", "warp method, NAME or NAME:KEY=NUMBER,...; see below",
+    declare.value("--method", "METHOD", "warp method, NAME or NAME:KEY=NUMBER,..., or auto; see below",
                   [&options](const std::string& text) {
-                      check_method("--method", text, false);
+                      if (text != "auto") check_method("--method", text, false);
                       options.method = text;
                   });
     declare.value("--fill", "FILL", "what is shown in holes (nearest-background)", [&options](const std::string& text) {
         check_name("fill", "--fill", text, fill_names());
         options.fill = text;
+        options.fill_given = true;
     });
+    declare_autotune(declare);
 }
 
 void declare_source(Declarer& declare) {
@@ -386,8 +388,25 @@ Result<CommandLine> parse(const std::vector<std::string>& arguments) {
 
 bool is_live(Subcommand subcommand) { return subcommand == Subcommand::demo || subcommand == Subcommand::measure; }
 
+/// The options of --method auto come together or not at all.
+Status check_autotune(const Options& options) {
+    const int limits = (options.error_cap ? 1 : 0) + (options.budget_ms ? 1 : 0);
+    if (options.method == "auto") {
+        if (limits == 1) return Done{};
+        return Error{limits == 0 ? "nothing to choose by" : "two things to choose by", "--method auto",
+                     "add either --error-cap or --budget-ms"};
+    }
+    if (limits == 0 && options.bench_data.empty()) return Done{};
+    return Error{"no method to choose", "--error-cap, --budget-ms and --bench-data", "add --method auto"};
+}
+
 /// Limits that concern two options at once.
 Status check_together(const Options& options) {
+    const Status autotune = check_autotune(options);
+    if (!autotune) return autotune;
+    if (!options.bench_merge.empty() && options.bench_part == "all") {
+        return Error{"nothing to merge", "--merge", "add --part errors or --part times"};
+    }
     const bool draws = options.subcommand == Subcommand::replay || options.subcommand == Subcommand::render;
     const int longest_px = std::max(options.size_px.x, options.size_px.y) * options.truth_samples;
     if (draws && longest_px > 2 * kMaxSidePx) {

@@ -46,6 +46,11 @@ struct Options {
 
     std::string method;                       ///< --method, a warp method with settings; the best there is by default
     std::string fill = "nearest-background";  ///< --fill
+    bool fill_given = false;                  ///< --method auto chooses the fill too unless this is set
+    std::optional<double> error_cap;          ///< --error-cap of --method auto: mean FLIP, > 0
+    std::optional<double> budget_ms;          ///< --budget-ms of --method auto, > 0
+    std::filesystem::path bench_data;         ///< --bench-data of --method auto; empty: where bench keeps its own
+    std::string chosen_because;               ///< why --method auto became what `method` says; empty: it was given
     std::vector<std::string> baselines;       ///< --baseline, in the order given, without repeats
     SourcePose source_pose = SourcePose::predicted;  ///< --source-pose
     /// --source-samples, --source-density and --guard-band; render has no guard band unless it is given.
@@ -77,6 +82,9 @@ struct Options {
 
     std::string bench_suite = "warp";              ///< --suite of bench
     bool quick = false;                            ///< --quick of bench: at most three minutes
+    std::string bench_part = "all";                ///< --part of bench: all, errors or times
+    std::filesystem::path bench_merge;             ///< --merge of bench: what it has is not measured anew; may be empty
+    double bench_most_s = 1e9;                     ///< --at-most of bench: no time is begun after so many seconds
     std::filesystem::path data{"../shared/data"};  ///< --data of bench: recorded traces and models; may be missing
 
     std::optional<std::uint64_t> seed;  ///< --seed

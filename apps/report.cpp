@@ -128,6 +128,7 @@ void describe_settings(Report& report, const Options& options) {
     set("app_latency_ms", options.app_latency_ms);
     set("truth_samples", options.truth_samples);
     if (options.seed) set("seed", *options.seed);
+    if (!options.chosen_because.empty()) set("chosen_because", options.chosen_because);
     report.set("method", options.method);
     report.set("size_px", options.size_px);
 }

@@ -90,6 +90,16 @@ std::vector<WarpSetting> few_settings() {
                      kBaseFill);
 }
 
+/// Around the base's frame age: one size of point stands for all, the CPU methods with all their settings.
+std::vector<WarpSetting> cpu_settings() {
+    std::vector<WarpSetting> settings = few_settings();
+    for (const WarpSetting& more :
+         with_fill({"inverse:steps=1", "inverse:steps=5", "splat:threads=2", "surface:threads=2"}, kBaseFill)) {
+        settings.push_back(more);
+    }
+    return settings;
+}
+
 /// The fills that the base does not have, behind the methods whose holes differ.
 void add_other_fills(std::vector<WarpSetting>& settings) {
     for (const std::string_view fill : fill_names()) {
@@ -109,7 +119,7 @@ void add_full_cells(SweepPlan& plan) {
     for (const double age_ms : {20.0, 50.0, 100.0, 200.0}) {
         for (const int samples : {1, 2, 4}) {
             const bool base = age_ms == kBaseAge_ms && samples == kBaseSamples;
-            std::vector<WarpSetting> settings = all_settings();
+            std::vector<WarpSetting> settings = age_ms == kBaseAge_ms ? all_settings() : cpu_settings();
             if (samples == kBaseSamples && age_ms >= kBaseAge_ms) add_other_fills(settings);
             add(kBaseSize_px, age_ms, samples, 1.0, settings, base ? plan.pairs.size() : plan.core_pairs, kFrames);
         }

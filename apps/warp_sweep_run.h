@@ -18,17 +18,10 @@ namespace lw {
 /// One point per cell and setting, in the plan's order, without errors and times.
 [[nodiscard]] std::vector<BenchPoint> points_of(const SweepPlan& plan);
 
-/// What a machine of any speed without latency would show: the display's picture drawn at photon time, with one sample
-/// per pixel (`fresh`) or with the source's (`fresh-same`).
-struct FreshErrors {
-    glm::ivec2 size_px{};
-    int samples = 1;
-    std::vector<PairErrors> pairs;
-};
-
 struct SweepSettings {
-    int threads = 0;     ///< for the error figures; 0: all cores
-    bool quiet = false;  ///< no progress, no warnings
+    int threads = 0;      ///< for the error figures; 0: all cores
+    bool quiet = false;   ///< no progress
+    double most_s = 1e9;  ///< times: nothing more is begun after so many seconds
 };
 
 /// Fills in the errors of `points` (as points_of() gave them). Each truth, each fresh picture and each source is drawn
@@ -37,12 +30,12 @@ struct SweepSettings {
 [[nodiscard]] Result<std::vector<FreshErrors>> measure_errors(const SweepPlan& plan, const SweepSettings& settings,
                                                               std::vector<BenchPoint>& points);
 
-/// Fills in the times of `points`, taken on the plan's first pair: warp and fill together, `repeats` times after a
-/// warm-up, in turns with copies of the colour and depth of the same source; sources take turns too, so that nobody
-/// finds his in the cache. Times do not depend on the source's samples, so points that differ in them alone share one
-/// measurement. Returns what the machine did meanwhile: the median over the points on one thread of processor time per
-/// wall time (1 on a quiet machine).
-[[nodiscard]] Result<double> measure_times(const SweepPlan& plan, const SweepSettings& settings, int repeats,
-                                           std::vector<BenchPoint>& points);
+/// Fills in the times of those `points` that have none, taken on the plan's first pair: warp and fill together,
+/// `repeats` times after a warm-up, in turns with copies of the colour and depth of the same source; sources take turns
+/// too, so that nobody finds his in the cache. Times do not depend on the source's samples, so points that differ in
+/// them alone share one measurement. Returns what the machine did meanwhile: the median over the points on one thread
+/// of processor time per wall time (1 on a quiet machine); nothing if there was no such point.
+[[nodiscard]] Result<std::optional<double>> measure_times(const SweepPlan& plan, const SweepSettings& settings,
+                                                          int repeats, std::vector<BenchPoint>& points);
 
 }  // namespace lw

@@ -130,6 +130,7 @@ struct Task {
 std::vector<Task> tasks_of(std::vector<BenchPoint>& points) {
     std::vector<Task> tasks;
     for (BenchPoint& point : points) {
+        if (point.warp_ms) continue;
         const WarpSetting setting{point.method, point.fill};
         const BenchConditions conditions = timed_as(point.conditions);
         auto task = std::find_if(tasks.begin(), tasks.end(), [&](const Task& other) {
@@ -177,15 +178,19 @@ std::vector<BenchPoint> points_of(const SweepPlan& plan) {
     return points;
 }
 
-Result<double> measure_times(const SweepPlan& plan, const SweepSettings& settings, int repeats,
-                             std::vector<BenchPoint>& points) {
+Result<std::optional<double>> measure_times(const SweepPlan& plan, const SweepSettings& settings, int repeats,
+                                            std::vector<BenchPoint>& points) {
     Result<SweepStage> stage = SweepStage::create(plan.pairs.front(), std::nullopt);
     if (!stage) return stage.error();
     const std::vector<Task> tasks = tasks_of(points);
+    if (tasks.empty()) return std::optional<double>{};
     Progress progress{"times", tasks.size(), settings.quiet};
     std::vector<Source> sources;
     std::vector<double> busy;
+    const auto begin = std::chrono::steady_clock::now();
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+        const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - begin;
+        if (gone.count() > settings.most_s) break;
         const Task& task = tasks[i];
         if (i == 0 || !(task.conditions == tasks[i - 1].conditions)) {
             sources = sources_of(plan, task.conditions, *stage);
@@ -198,7 +203,7 @@ Result<double> measure_times(const SweepPlan& plan, const SweepSettings& setting
         for (Source& source : sources) source.layer->prepared.clear();
         progress.show(i + 1);
     }
-    return busy.empty() ? 1.0 : median(busy);
+    return busy.empty() ? std::nullopt : std::optional<double>{median(busy)};
 }
 
 }  // namespace lw

@@ -53,7 +53,8 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"warp", "frame"}, Arguments{"compare", "a.png"}, Arguments{"compare", "a.png", "b.png", "--ppd", "0"},
         Arguments{"generate", "city"}, Arguments{"generate", "atlantis", "-o", "x.glb"}, Arguments{"info"},
         Arguments{"info", "a", "b"}, Arguments{"bench", "--suite", "magic"}, Arguments{"bench", "--data", ""},
-        Arguments{"bench", "city"}, Arguments{"bench", "--save-frames"}));
+        Arguments{"bench", "city"}, Arguments{"bench", "--save-frames"}, Arguments{"bench", "--part", "half"},
+        Arguments{"bench", "--merge", "x.json"}));
 
 /// Options of later versions are refused, never silently ignored.
 class OptionToCome : public testing::TestWithParam<std::string> {};

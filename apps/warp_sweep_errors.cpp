@@ -62,6 +62,9 @@ struct Moment {
     std::map<int, ImageErrors> fresh;  ///< by samples per axis
 };
 
+using SizeKey = std::pair<int, int>;
+SizeKey key_of(glm::ivec2 size_px) { return {size_px.x, size_px.y}; }
+
 class ErrorRun {
 public:
     ErrorRun(const SweepPlan& plan, const SweepSettings& settings, std::vector<BenchPoint>& points)
@@ -88,20 +91,20 @@ public:
 
 private:
     Status run_moment(std::size_t frame, SweepStage& stage) {
-        std::map<int, Moment> moments;  // by size
+        std::map<SizeKey, Moment> moments;
         std::size_t first_point = 0;
         for (const SweepCell& cell : plan_.cells) {
             if (pair_ < cell.pairs && frame < cell.frames) {
                 const double photon_s = photon_s_of(plan_, frame);
-                Moment& moment = moments[cell.conditions.size_px.x];
+                Moment& moment = moments[key_of(cell.conditions.size_px)];
                 draw_moment(cell.conditions, photon_s, stage, moment);
                 const Status status = run_cell(cell, first_point, photon_s, moment.truth, stage);
                 if (!status) return status;
             }
             first_point += cell.settings.size();
         }
-        for (const auto& [size_px, moment] : moments) {
-            for (const auto& [samples, errors] : moment.fresh) fresh_sums_[{size_px, samples}].add(errors);
+        for (const auto& [size_key, moment] : moments) {
+            for (const auto& [samples, errors] : moment.fresh) fresh_sums_[{size_key, samples}].add(errors);
         }
         return Done{};
     }
@@ -159,7 +162,7 @@ private:
             }
         }
         for (const auto& [key, sum] : fresh_sums_) {
-            const glm::ivec2 size_px{key.first, key.first};
+            const glm::ivec2 size_px{key.first.first, key.first.second};
             const int samples = key.second;
             auto found = std::find_if(fresh_.begin(), fresh_.end(), [&](const FreshErrors& errors) {
                 return errors.size_px == size_px && errors.samples == samples;
@@ -176,8 +179,8 @@ private:
     std::size_t judged_ = 0;
     Warpers warpers_;
     std::size_t pair_ = 0;
-    std::vector<ErrorSum> sums_;  // per point, of the pair
-    std::map<std::pair<int, int>, ErrorSum> fresh_sums_;
+    std::vector<ErrorSum> sums_;                              // per point, of the pair
+    std::map<std::pair<SizeKey, int>, ErrorSum> fresh_sums_;  // by size and samples
     std::vector<FreshErrors> fresh_;
     CpuPixels fresh_pixels_;
 };

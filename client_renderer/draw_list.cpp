@@ -25,60 +25,46 @@ double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
 
 }  // namespace
 
-DrawList::DrawList(const scene::Scene& scene, const scene::SceneState& state) : scene_{scene} {
-    for (const scene::Instance& instance : scene.instances) placed_.push_back({&instance, {}, {}, false});
-    std::ranges::stable_sort(placed_, {}, [](const PlacedInstance& placed) { return placed.instance->mesh; });
-
-    first_of_mesh_.assign(scene.meshes.size() + 1, 0);
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-        place(placed_[i], state);
-        ++first_of_mesh_[static_cast<std::size_t>(placed_[i].instance->mesh) + 1];
-        if (placed_[i].instance->mover != 0) movers_.push_back(static_cast<std::uint32_t>(i));
-    }
-    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) first_of_mesh_[mesh + 1] += first_of_mesh_[mesh];
+DrawList::DrawList(const PlacedInstances& placed) : placed_{placed} {
     for (auto& zone : visible_) {
-        for (auto& visible : zone) visible.resize(scene.meshes.size());
+        for (auto& visible : zone) visible.resize(placed.scene().meshes.size());
     }
 }
 
-void DrawList::place(PlacedInstance& placed, const scene::SceneState& state) const {
-    const scene::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(placed.instance->mesh)];
-    placed.world_from_object = state.world_from_object(*placed.instance);
-    placed.bounds_world = scene::transformed(mesh.bounds, placed.world_from_object);
-    placed.mirrored = glm::determinant(glm::dmat3{placed.world_from_object}) < 0.0;
-}
-
-void DrawList::collect_visible(const Camera& camera, bool cull) {
-    const Frustum frustum = frustum_of(camera);
+void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& camera) {
     const glm::dvec3& eye_world = camera.world_from_eye.position_m;
     packed_.clear();
-    for (std::size_t mesh = 0; mesh < scene_.meshes.size(); ++mesh) {
-        for (std::uint32_t i = first_of_mesh_[mesh]; i < first_of_mesh_[mesh + 1]; ++i) {
-            const PlacedInstance& placed = placed_[i];
-            if (cull && !may_see(frustum, placed.bounds_world)) continue;
-            const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
-            const auto zone =
-                static_cast<std::size_t>(std::ranges::upper_bound(kZoneEnds_m, distance_m) - kZoneEnds_m.begin());
-            collected_[zone][placed.mirrored ? 1 : 0].push_back(
-                packed(placed.world_from_object, eye_world, placed.instance->mover));
-        }
-        for (std::size_t zone = 0; zone < kZones; ++zone) {
-            for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
-                std::vector<PackedInstance>& collected = collected_[zone][mirrored];
-                visible_[zone][mirrored][mesh] = {static_cast<std::uint32_t>(packed_.size()),
-                                                  static_cast<std::uint32_t>(collected.size())};
-                packed_.insert(packed_.end(), collected.begin(), collected.end());
-                collected.clear();
-            }
+    for (auto& zone : visible_) {
+        for (auto& ranges : zone) std::ranges::fill(ranges, VisibleRange{});
+    }
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+        const PlacedInstance& placed = placed_[visible[i]];
+        const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
+        const auto zone =
+            static_cast<std::size_t>(std::ranges::upper_bound(kZoneEnds_m, distance_m) - kZoneEnds_m.begin());
+        collected_[zone][placed.mirrored ? 1 : 0].push_back(
+            packed(placed.world_from_object, eye_world, placed.instance->mover));
+        const int mesh = placed.instance->mesh;
+        const bool last_of_mesh = i + 1 == visible.size() || placed_[visible[i + 1]].instance->mesh != mesh;
+        if (last_of_mesh) end_mesh(static_cast<std::size_t>(mesh));
+    }
+}
+
+void DrawList::end_mesh(std::size_t mesh) {
+    for (std::size_t zone = 0; zone < kZones; ++zone) {
+        for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
+            std::vector<PackedInstance>& collected = collected_[zone][mirrored];
+            visible_[zone][mirrored][mesh] = {static_cast<std::uint32_t>(packed_.size()),
+                                              static_cast<std::uint32_t>(collected.size())};
+            packed_.insert(packed_.end(), collected.begin(), collected.end());
+            collected.clear();
         }
     }
 }
 
-void DrawList::build(const scene::SceneState& state, const Camera& camera,
-                     std::span<const std::vector<MeshPart>> batches, bool cull) {
-    for (const std::uint32_t mover : movers_) place(placed_[mover], state);
-    collect_visible(camera, cull);
-
+void DrawList::build(std::span<const std::uint32_t> visible, const Camera& camera,
+                     std::span<const std::vector<MeshPart>> batches) {
+    collect(visible, camera);
     commands_.clear();
     ranges_.clear();
     triangles_drawn_ = 0;

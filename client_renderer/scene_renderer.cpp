@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "client_renderer/culling.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/frame_block.h"
 #include "client_renderer/gbuffer_pass.h"
@@ -91,7 +92,9 @@ public:
           resolve_{std::move(resolve)},
           frame_block_{gl::make_buffer(sizeof(shader::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT)} {
         state_.set_time(0.0);
-        draw_list_.emplace(scene_, state_);
+        placed_.emplace(scene_, state_);
+        culling_.emplace(*placed_, settings_.culling);
+        draw_list_.emplace(*placed_);
     }
 
     [[nodiscard]] Status warm_up() {
@@ -198,12 +201,16 @@ private:
     const RenderTargets& render(const Camera& camera, double scene_time_s) {
         const RenderTargets& targets = targets_of(camera.size_px);
         state_.set_time(scene_time_s);
-        draw_list_->build(state_, camera, gpu_scene_->parts(), settings_.cull);
+        placed_->move(state_);
+        culling_->move();
+        draw_list_->build(culling_->visible(camera), camera, gpu_scene_->parts());
         bind_frame(camera);
         counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
         lights_.build(scene_.point_lights, camera);
         lighting_.draw(targets, lights_);
-        counters_.objects_tested += draw_list_->objects_tested();
+        counters_.objects_tested += culling_->counters().tested;
+        counters_.objects_outside += culling_->counters().outside;
+        counters_.objects_occluded += culling_->counters().occluded;
         counters_.objects_drawn += draw_list_->objects_drawn();
         counters_.triangles_drawn += draw_list_->triangles_drawn();
         return targets;
@@ -228,6 +235,8 @@ private:
     const scene::Scene& scene_;
     SceneRendererSettings settings_;
     scene::SceneState state_;
+    std::optional<PlacedInstances> placed_;
+    std::optional<Culling> culling_;
     std::optional<DrawList> draw_list_;
     std::unique_ptr<GpuScene> gpu_scene_;
     GBufferPass gbuffer_;

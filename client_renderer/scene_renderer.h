@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "client_renderer/culling.h"
 #include "core/camera.h"
 #include "core/image.h"
 #include "core/result.h"
@@ -15,13 +16,15 @@ namespace lw {
 /// What one draw did.
 struct DrawCounters {
     std::uint64_t objects_tested = 0;
+    std::uint64_t objects_outside = 0;   ///< skipped: not in the field of view
+    std::uint64_t objects_occluded = 0;  ///< skipped: hidden behind others
     std::uint64_t objects_drawn = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t draw_calls = 0;
 };
 
 struct SceneRendererSettings {
-    bool cull = true;  ///< leave out objects outside the field of view; off, the picture is the same and slower
+    CullingSettings culling;  ///< whatever it skips, the picture is the same
 };
 
 /// Belongs to one GL context and its thread: made, used and destroyed with that context current.

@@ -262,7 +262,7 @@ Camera random_camera(std::mt19937& random, glm::ivec2 size_px) {
 TEST_F(GlSceneRenderer, CullingChangesNoPixel) {
     const scene::Scene scene = random_squares(1);
     auto culling = make(scene);
-    auto not_culling = make(scene, {.cull = false});
+    auto not_culling = make(scene, {.culling = {.skip = false}});
     std::mt19937 random{2};
     std::uint64_t culled = 0;
     for (int i = 0; i < 30; ++i) {

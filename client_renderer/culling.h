@@ -1,0 +1,54 @@
+#pragma once
+/// Decides which objects a view needs: what is outside the field of view, or hidden, is skipped.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "client_renderer/box_list.h"
+#include "client_renderer/occluders.h"
+#include "client_renderer/occlusion_buffer.h"
+#include "client_renderer/placed_instances.h"
+
+namespace lw {
+
+struct CullingSettings {
+    bool skip = true;              ///< off (--no-skip): everything is drawn, in the same order
+    double reveal_margin_m = 0.0;  ///< what is hidden must stay so for every eye within this distance, >= 0
+};
+
+/// Objects by what became of them.
+struct CullingCounters {
+    std::uint64_t tested = 0;
+    std::uint64_t outside = 0;    ///< not in the field of view
+    std::uint64_t occluded = 0;   ///< hidden behind occluders
+    std::uint64_t occluders = 0;  ///< drawn into the occlusion buffer
+};
+
+/// One thread at a time.
+class Culling {
+public:
+    /// `placed` outlives this.
+    Culling(const PlacedInstances& placed, const CullingSettings& settings);
+
+    /// After `placed` moved.
+    void move();
+
+    /// Indices into `placed` of what the camera needs, ascending; valid until the next call.
+    [[nodiscard]] const std::vector<std::uint32_t>& visible(const Camera& camera);
+
+    [[nodiscard]] const CullingCounters& counters() const { return counters_; }  ///< of the last view
+
+private:
+    const PlacedInstances& placed_;
+    CullingSettings settings_;
+    BoxList boxes_;
+    Occluders occluders_;
+    OcclusionBuffer buffer_;
+    std::vector<std::uint32_t> in_view_;
+    std::vector<std::uint32_t> seen_;
+    std::vector<std::uint32_t> hidden_;
+    CullingCounters counters_;
+};
+
+}  // namespace lw

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/skip_report.h"
+
 namespace lw {
 namespace {
 
@@ -94,6 +96,9 @@ void describe_live_run(Report& report, const Options& options, const LiveResult&
     report.set("counters/unknown_object_pixels", summary.unknown_object_pixels);
     report.set("counters/bad_head_poses", result.bad_head_poses);
     report.set("interrupted", result.interrupted);
+    std::vector<DrawCounters> draws;
+    for (const ClientFrameRecord& frame : result.app_frames) draws.push_back(frame.counters);
+    describe_skipped(report, draws);
 }
 
 std::string refreshes_csv(const LiveResult& result) {

@@ -206,7 +206,7 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     context->make_current();
     client_context_ = context.get();
     textures_ = entry_.needs_gl && !context->is_software();
-    auto made_renderer = SceneRenderer::create(scene_);
+    auto made_renderer = SceneRenderer::create(scene_, {options_.culling});
     if (!made_renderer) return made_renderer.error();
     renderer = std::move(made_renderer).value();
     // The driver compiles at the first draw; that is no frame of the run.
@@ -227,6 +227,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     // older by more than the band covers. There `auto` means none; a band in degrees is drawn as asked.
     if (!settings.source.guard_band_rad && client_context_->is_software()) settings.source.guard_band_rad = 0.0;
     settings.textures = textures_;
+    settings.reveal_margin_m = options_.reveal_margin_m;
     const auto prepare = [this](Layer& layer) {
         result_.source_views.push_back({layer.camera, layer.scene_time_s});
         warper_->prepare(layer);

@@ -98,6 +98,19 @@ void declare_guard_band(Declarer& declare, bool auto_allowed) {
     declare.value("--guard-band", "DEG", "view around the frame of --frame, per side (0)", degrees);
 }
 
+void declare_skip(Declarer& declare) {
+    Options& options = declare.options();
+    declare.app().add_flag_callback(
+        "--no-skip", [&options] { options.culling.skip = false; }, "draw everything, whether it is needed or not");
+    declare.value("--reveal-margin", "auto|M",
+                  "hidden objects must be so for eyes this far; auto: as the head moves (auto)",
+                  [&options](const std::string& text) {
+                      options.reveal_margin_m.reset();
+                      if (text != "auto") options.reveal_margin_m = number_in("--reveal-margin", text, {0, 100});
+                      options.culling.reveal_margin_m = options.reveal_margin_m.value_or(0.0);
+                  });
+}
+
 void declare_timing(Declarer& declare) {
     Options& options = declare.options();
     declare.value("--source-pose", "predicted|sampled", "head pose the client draws for (predicted)",
@@ -175,6 +188,7 @@ void declare_live(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, true);
+    declare_skip(declare);
     declare_method(declare);
     declare_timing(declare);
     declare_truth(declare);
@@ -189,6 +203,7 @@ void declare_replay(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, true);
+    declare_skip(declare);
     declare_method(declare);
     declare_baselines(declare);
     declare_timing(declare);
@@ -214,6 +229,7 @@ void declare_render(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, false);
+    declare_skip(declare);
     declare_truth(declare);
     declare_parameters(declare);
     declare_common(declare);

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "client_renderer/culling.h"
 #include "client_renderer/source_camera.h"
 #include "core/camera.h"
 #include "core/pose.h"
@@ -55,6 +56,9 @@ struct Options {
     SourcePose source_pose = SourcePose::predicted;  ///< --source-pose
     /// --source-samples, --source-density and --guard-band; render has no guard band unless it is given.
     SourceSettings source{1, 1.0, std::nullopt};
+
+    CullingSettings culling;                ///< --no-skip
+    std::optional<double> reveal_margin_m;  ///< --reveal-margin, metres; as the head moves unless given
 
     std::optional<double> app_hz;          ///< --app-hz; replay draws at 10 Hz unless given, live as fast as it can
     double display_hz = 90.0;              ///< --display-hz, [1, 1000]

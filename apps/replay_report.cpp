@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "apps/skip_report.h"
+
 namespace lw {
 
 namespace {
@@ -120,6 +122,7 @@ void add_replay_results(Report& report, const ReplayResult& result) {
     for (const RefreshRecord& record : result.refreshes) ages_ms.push_back(record.frame_age_ms());
     report.set("frame_age_ms", distribution_of(ages_ms));
     add_costs(report, result);
+    describe_skipped(report, result.client_draws);
 }
 
 std::string replay_csv(const ReplayResult& result) {

@@ -17,6 +17,7 @@ struct ReplayResult {
     std::vector<std::string> labels;  ///< --method, then the baselines
     std::vector<RefreshRecord> refreshes;
     ReplayCosts costs;
+    std::vector<DrawCounters> client_draws;  ///< of every client frame
     double pixels_per_degree = 0.0;
     double source_pixels_ratio = 1.0;    ///< pixels of the client's frames over those of the display, mean
     std::uint64_t bad_depth_pixels = 0;  ///< of --method, over all refreshes

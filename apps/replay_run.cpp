@@ -6,6 +6,8 @@
 
 #include "apps/parallel.h"
 
+#include "client_renderer/reveal_margin.h"
+
 namespace lw {
 
 namespace {
@@ -111,8 +113,12 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     layer->camera.world_from_eye = pose.world_from_head;
     layer->pose_sampled = pose.newest_sample;
     layer->scene_time_s = seconds_of(drawn_for);
+    renderer_->set_reveal_margin(reveal_margin_m(options_.reveal_margin_m, *client_predictor_, feed_, begin,
+                                                 pose.world_from_head, clock_.published(frame),
+                                                 clock_.end_of_life(frame)));
     const Stopwatch drawing;
     renderer_->draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
+    client_draws_.push_back(renderer_->counters());
     renderer_->mover_placements(layer->scene_time_s, layer->movers);
     costs_.app_ms.push_back(drawing.ms());
     for (std::size_t i = 0; i < warpers_.size(); ++i) {

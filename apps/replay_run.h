@@ -68,6 +68,8 @@ public:
     [[nodiscard]] RefreshRecord judge() const;
 
     [[nodiscard]] const ReplayCosts& costs() const { return costs_; }
+    /// Of every client frame drawn.
+    [[nodiscard]] const std::vector<DrawCounters>& client_draws() const { return client_draws_; }
     /// Pixels of the client's frames so far over those of the display, mean over the frames.
     [[nodiscard]] double source_pixels_ratio() const;
     [[nodiscard]] std::uint64_t bad_depth_count() const { return bad_depth_count_; }
@@ -98,6 +100,7 @@ private:
     RefreshRecord record_;
     std::vector<ObjectTransform> movers_;
     ReplayCosts costs_;
+    std::vector<DrawCounters> client_draws_;
     std::uint64_t bad_depth_count_ = 0;
 };
 

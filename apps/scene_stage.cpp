@@ -22,7 +22,7 @@ Result<SceneStage> make_stage(const Options& options) {
     if (!context) return context.error();
     stage.context = *std::move(context);
     stage.context->make_current();
-    Result<std::unique_ptr<SceneRenderer>> renderer = SceneRenderer::create(*stage.scene);
+    Result<std::unique_ptr<SceneRenderer>> renderer = SceneRenderer::create(*stage.scene, {options.culling});
     if (!renderer) return renderer.error();
     stage.renderer = *std::move(renderer);
     return stage;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "client_renderer/reveal_margin.h"
+
 namespace lw {
 
 namespace {
@@ -51,6 +53,9 @@ void ClientLoop::draw_and_publish() {
     layer->camera.world_from_eye = head.world_from_head;
     layer->pose_sampled = head.newest_sample;
     layer->scene_time_s = seconds_of(target);
+    const TimePoint shown_from = sampled + latency_;
+    renderer_.set_reveal_margin(reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled,
+                                                head.world_from_head, shown_from, shown_from + period_));
 
     ClientFrameRecord record;
     record.index = records_.size() + 1;

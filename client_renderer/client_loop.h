@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "client_renderer/layer_pool.h"
@@ -19,7 +20,8 @@ namespace lw {
 struct ClientSettings {
     Camera camera;          ///< the display's size, field of view and near plane; its pose is ignored
     SourceSettings source;  ///< what is drawn for it
-    double max_hz = 0.0;    ///< 0: as fast as it can
+    std::optional<double> reveal_margin_m = 0.0;  ///< --reveal-margin, metres; nothing: as the head moves
+    double max_hz = 0.0;                          ///< 0: as fast as it can
     bool predict_source_pose =
         true;               ///< draw for the middle of the frame's life on the display (--source-pose predicted)
     bool textures = false;  ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory

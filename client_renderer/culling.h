@@ -34,6 +34,9 @@ public:
     /// After `placed` moved.
     void move();
 
+    /// From the next view on; metres, >= 0.
+    void set_reveal_margin(double margin_m) { settings_.reveal_margin_m = margin_m; }
+
     /// Indices into `placed` of what the camera needs, ascending; valid until the next call.
     [[nodiscard]] const std::vector<std::uint32_t>& visible(const Camera& camera);
 

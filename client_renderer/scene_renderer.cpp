@@ -162,6 +162,8 @@ public:
         });
     }
 
+    void set_reveal_margin(double margin_m) override { culling_->set_reveal_margin(margin_m); }
+
     void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
         state_.set_time(scene_time_s);
         state_.mover_placements(transforms);

@@ -16,11 +16,11 @@ namespace lw {
 /// What one draw did.
 struct DrawCounters {
     std::uint64_t objects_tested = 0;
-    std::uint64_t objects_outside = 0;   ///< skipped: not in the field of view
-    std::uint64_t objects_occluded = 0;  ///< skipped: hidden behind others
     std::uint64_t objects_drawn = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t draw_calls = 0;
+    std::uint64_t objects_outside = 0;   ///< skipped: not in the field of view
+    std::uint64_t objects_occluded = 0;  ///< skipped: hidden behind others
 };
 
 struct SceneRendererSettings {
@@ -55,6 +55,10 @@ public:
     /// draw(). Drawn in tiles where it is large, so any size up to the driver's texture limit works.
     virtual void draw_supersampled(const Camera& camera, double scene_time_s, int samples_per_axis,
                                    ColourImage& colour) = 0;
+
+    /// From the next draw on, what is skipped as hidden is hidden from every eye within `margin_m` metres of the
+    /// camera's. It changes no pixel, only what the counters say.
+    virtual void set_reveal_margin(double margin_m) { (void)margin_m; }
 
     /// Placements of the movers at a scene time.
     virtual void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) = 0;

@@ -1,0 +1,20 @@
+#include "client_renderer/reveal_margin.h"
+
+#include <algorithm>
+
+namespace lw {
+
+double reveal_margin_m(std::optional<double> given, HeadPosePredictor& predictor, const HeadPoseFeed& feed,
+                       TimePoint now, const Pose& drawn_from, TimePoint shown_from, TimePoint shown_until) {
+    if (given) return *given;
+    constexpr double kUnforeseen = 1.5;
+    constexpr double kStill_m = 0.005;
+    double farthest_m = 0.0;
+    for (const TimePoint shown : {shown_from, shown_until}) {
+        const Pose head = predictor.predict(feed, now, shown).world_from_head;
+        farthest_m = std::max(farthest_m, glm::distance(head.position_m, drawn_from.position_m));
+    }
+    return kUnforeseen * farthest_m + kStill_m;
+}
+
+}  // namespace lw

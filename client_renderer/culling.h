@@ -2,10 +2,12 @@
 /// Decides which objects a view needs: what is outside the field of view, or hidden, is skipped.
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "client_renderer/box_list.h"
+#include "client_renderer/box_tree.h"
 #include "client_renderer/occluders.h"
 #include "client_renderer/occlusion_buffer.h"
 #include "client_renderer/placed_instances.h"
@@ -28,6 +30,9 @@ struct CullingCounters {
 /// One thread at a time.
 class Culling {
 public:
+    /// Scenes of more objects are tested by the hierarchy. Below it the plain list is as fast.
+    static constexpr std::size_t kListUpTo = 1024;
+
     /// `placed` outlives this.
     Culling(const PlacedInstances& placed, const CullingSettings& settings);
 
@@ -45,7 +50,13 @@ public:
 private:
     const PlacedInstances& placed_;
     CullingSettings settings_;
-    BoxList boxes_;
+    void walk_tree(const Camera& camera, bool with_occlusion);
+    void walk_list(const Camera& camera, bool with_occlusion);
+
+    BoxList boxes_;                      ///< few objects: one after the other
+    std::optional<BoxTree> tree_;        ///< many
+    std::vector<scene::Bounds> bounds_;  ///< for the tree
+    std::vector<std::uint64_t> marks_;   ///< one bit per object, to put what the tree found in order
     Occluders occluders_;
     OcclusionBuffer buffer_;
     std::vector<std::uint32_t> in_view_;

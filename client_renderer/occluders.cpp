@@ -30,12 +30,14 @@ Occluder placed_occluder(const scene::SolidBox& box, const PlacedInstance& place
     return occluder;
 }
 
-/// How large it looks, roughly: the area of its largest face over the squared distance.
-float score_of(const Occluder& occluder, const glm::dvec3& eye_world) {
-    const glm::dvec3 size = occluder.bounds_world.max - occluder.bounds_world.min;
-    const double area = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
-    const glm::dvec3 nearest = glm::clamp(eye_world, occluder.bounds_world.min, occluder.bounds_world.max);
-    const glm::dvec3 to_box = nearest - eye_world;
+double largest_face(const scene::Bounds& bounds) {
+    const glm::dvec3 size = bounds.max - bounds.min;
+    return std::max({size.x * size.y, size.y * size.z, size.z * size.x});
+}
+
+/// How large something of that area looks, roughly, at the box's nearest point: area over squared distance.
+float score_of(double area, const scene::Bounds& bounds, const glm::dvec3& eye_world) {
+    const glm::dvec3 to_box = glm::clamp(eye_world, bounds.min, bounds.max) - eye_world;
     return static_cast<float>(area / (glm::dot(to_box, to_box) + 1.0));
 }
 
@@ -88,36 +90,96 @@ Occluders::Occluders(const PlacedInstances& placed) {
     static_count_ = occluders_.size();
     for (Moving& moving : moving_) {
         moving.occluder = occluders_.size();
-        occluders_.emplace_back();
+        moved_.push_back(static_cast<std::uint32_t>(moving.occluder));
+        const auto mesh = static_cast<std::size_t>(placed[moving.instance].instance->mesh);
+        occluders_.push_back(placed_occluder(boxes_of_meshes_[mesh][moving.box], placed[moving.instance]));
     }
-    move(placed);
+    index();
 }
 
 void Occluders::move(const PlacedInstances& placed) {
+    if (moving_.empty()) return;
     for (const Moving& moving : moving_) {
         const PlacedInstance& instance = placed[moving.instance];
         const auto mesh = static_cast<std::size_t>(instance.instance->mesh);
         occluders_[moving.occluder] = placed_occluder(boxes_of_meshes_[mesh][moving.box], instance);
+        bounds_[moving.occluder] = occluders_[moving.occluder].bounds_world;
+    }
+    bvh_->refit(moved_, bounds_);
+}
+
+void Occluders::index() {
+    for (const Occluder& occluder : occluders_) bounds_.push_back(occluder.bounds_world);
+    bvh_.emplace(bounds_, 8);
+    // Children come after their parents.
+    largest_areas_.assign(bvh_->nodes().size(), 0.0F);
+    for (std::size_t node = bvh_->nodes().size(); node-- > 0;) {
+        const auto index = static_cast<std::uint32_t>(node);
+        if (bvh_->nodes()[node].count > 0) {
+            for (std::uint32_t i = bvh_->first_item(index); i < bvh_->end_item(index); ++i) {
+                // A mover's box changes as it turns, by less than this.
+                const std::uint32_t item = bvh_->order()[i];
+                const double slack = item < static_count_ ? 1.0 : 2.0;
+                const auto area = static_cast<float>(slack * largest_face(bounds_[item]));
+                largest_areas_[node] = std::max(largest_areas_[node], area);
+            }
+        }
+        const std::uint32_t parent = bvh_->parent(index);
+        if (parent != scene::Bvh::kNone)
+            largest_areas_[parent] = std::max(largest_areas_[parent], largest_areas_[node]);
+    }
+}
+
+void Occluders::offer(const Choice& choice) {
+    const auto better = [](const Choice& a, const Choice& b) {
+        return a.score != b.score ? a.score > b.score : a.occluder < b.occluder;
+    };
+    if (choices_.size() == kMostDrawn) {
+        if (!better(choice, choices_.front())) return;
+        std::ranges::pop_heap(choices_, better);
+        choices_.pop_back();
+    }
+    choices_.push_back(choice);
+    std::ranges::push_heap(choices_, better);
+}
+
+void Occluders::choose(const Camera& camera, bool movers_too) {
+    const Frustum frustum = frustum_of(camera);
+    const glm::dvec3& eye_world = camera.world_from_eye.position_m;
+    choices_.clear();
+    if (bvh_->empty()) return;
+    const auto bounds_of = [&](std::uint32_t node) {
+        return scene::Bounds{glm::dvec3{bvh_->nodes()[node].min}, glm::dvec3{bvh_->nodes()[node].max}};
+    };
+    const auto promise = [&](std::uint32_t node) {
+        return score_of(double{largest_areas_[node]}, bounds_of(node), eye_world);
+    };
+    std::vector<std::uint32_t> stack{scene::Bvh::kRoot};
+    while (!stack.empty()) {
+        const std::uint32_t node = stack.back();
+        stack.pop_back();
+        if (choices_.size() == kMostDrawn && promise(node) < choices_.front().score) continue;
+        if (!may_see(frustum, bounds_of(node))) continue;
+        const scene::BvhNode& here = bvh_->nodes()[node];
+        if (here.count == 0) {
+            // The better one first: it raises what the others must reach.
+            const bool first_is_better = promise(here.first) >= promise(here.first + 1);
+            stack.push_back(first_is_better ? here.first + 1 : here.first);
+            stack.push_back(first_is_better ? here.first : here.first + 1);
+            continue;
+        }
+        for (std::uint32_t i = here.first; i < here.first + here.count; ++i) {
+            const std::uint32_t item = bvh_->order()[i];
+            if (!movers_too && item >= static_count_) continue;
+            if (!may_see(frustum, bounds_[item])) continue;
+            offer({score_of(largest_face(bounds_[item]), bounds_[item], eye_world), item});
+        }
     }
 }
 
 std::size_t Occluders::draw(const Camera& camera, double margin_m, OcclusionBuffer& buffer) {
-    const Frustum frustum = frustum_of(camera);
-    const glm::dvec3& eye_world = camera.world_from_eye.position_m;
-    choices_.clear();
     // What moves has moved on while the frame is shown: with a margin only what stands still hides anything.
-    const std::size_t count = margin_m > 0.0 ? static_count_ : occluders_.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!may_see(frustum, occluders_[i].bounds_world)) continue;
-        choices_.push_back({score_of(occluders_[i], eye_world), static_cast<std::uint32_t>(i)});
-    }
-    const auto larger = [](const Choice& a, const Choice& b) {
-        return a.score != b.score ? a.score > b.score : a.occluder < b.occluder;
-    };
-    if (choices_.size() > kMostDrawn) {
-        std::nth_element(choices_.begin(), choices_.begin() + kMostDrawn, choices_.end(), larger);
-        choices_.resize(kMostDrawn);
-    }
+    choose(camera, !(margin_m > 0.0));
     std::size_t drawn = 0;
     for (const Choice& choice : choices_) {
         const auto solid = usable(occluders_[choice.occluder], camera, margin_m);

@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "client_renderer/frustum.h"
 #include "client_renderer/occlusion_buffer.h"
 #include "client_renderer/placed_instances.h"
+#include "scene/bvh.h"
 #include "scene/solid_boxes.h"
 
 namespace lw {
@@ -49,15 +51,23 @@ private:
         std::size_t box = 0;  ///< of its mesh
     };
 
-    std::vector<std::vector<scene::SolidBox>> boxes_of_meshes_;
-    std::vector<Occluder> occluders_;  ///< static ones first
-    std::size_t static_count_ = 0;
-    std::vector<Moving> moving_;
     struct Choice {
         float score = 0.0F;
         std::uint32_t occluder = 0;
     };
-    std::vector<Choice> choices_;
+    void choose(const Camera& camera, bool movers_too);
+    void offer(const Choice& choice);
+    void index();
+
+    std::vector<std::vector<scene::SolidBox>> boxes_of_meshes_;
+    std::vector<Occluder> occluders_;  ///< static ones first
+    std::size_t static_count_ = 0;
+    std::vector<Moving> moving_;
+    std::vector<scene::Bounds> bounds_;  ///< of the occluders, for the hierarchy
+    std::vector<std::uint32_t> moved_;
+    std::optional<scene::Bvh> bvh_;
+    std::vector<float> largest_areas_;  ///< by node
+    std::vector<Choice> choices_;       ///< a heap, the least score on top
 };
 
 }  // namespace lw

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "client_renderer/culling.h"
+#include "client_renderer/culling_settings.h"
 #include "client_renderer/source_camera.h"
 #include "core/camera.h"
 #include "core/pose.h"

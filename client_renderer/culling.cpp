@@ -51,6 +51,11 @@ const std::vector<std::uint32_t>& Culling::visible(const Camera& camera) {
     return seen_;
 }
 
+ClusterView Culling::cluster_view(const Camera& camera) const {
+    return {frustum_of(camera), camera.world_from_eye.position_m, settings_.reveal_margin_m,
+            counters_.occluders > 0 ? &buffer_ : nullptr};
+}
+
 void Culling::walk_list(const Camera& camera, bool with_occlusion) {
     if (!with_occlusion) {
         boxes_.append_seen(frustum_of(camera), seen_);

@@ -8,16 +8,13 @@
 
 #include "client_renderer/box_list.h"
 #include "client_renderer/box_tree.h"
+#include "client_renderer/clusters.h"
+#include "client_renderer/culling_settings.h"
 #include "client_renderer/occluders.h"
 #include "client_renderer/occlusion_buffer.h"
 #include "client_renderer/placed_instances.h"
 
 namespace lw {
-
-struct CullingSettings {
-    bool skip = true;              ///< off (--no-skip): everything is drawn, in the same order
-    double reveal_margin_m = 0.0;  ///< what is hidden must stay so for every eye within this distance, >= 0
-};
 
 /// Objects by what became of them.
 struct CullingCounters {
@@ -44,6 +41,9 @@ public:
 
     /// Indices into `placed` of what the camera needs, ascending; valid until the next call.
     [[nodiscard]] const std::vector<std::uint32_t>& visible(const Camera& camera);
+
+    /// For the clusters of what the last view needs; valid until the next view.
+    [[nodiscard]] ClusterView cluster_view(const Camera& camera) const;
 
     [[nodiscard]] const CullingCounters& counters() const { return counters_; }  ///< of the last view
 

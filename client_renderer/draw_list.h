@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "client_renderer/clusters.h"
 #include "client_renderer/packed_vertex.h"
 #include "client_renderer/placed_instances.h"
 #include "core/camera.h"
@@ -21,6 +22,7 @@ struct MeshPart {
     std::uint32_t index_count = 0;
     std::uint32_t first_index = 0;
     std::int32_t base_vertex = 0;
+    ClusterRange clusters;  ///< empty: the part is drawn as a whole
 };
 
 /// As glMultiDrawElementsIndirect reads it.
@@ -42,6 +44,12 @@ struct DrawRange {
     std::size_t command_count = 0;
 };
 
+/// How parts that have clusters are drawn.
+struct ClusterUse {
+    Clusters* clusters = nullptr;  ///< null: as a whole
+    ClusterView view;
+};
+
 /// Keeps its memory between frames. One thread at a time.
 class DrawList {
 public:
@@ -50,9 +58,10 @@ public:
 
     /// Fills the list with the instances `visible` (indices into the placed ones, ascending), as seen by `camera`.
     /// `batches[b]` are the parts drawn with the state of batch b. Leaving an instance out does not change the order of
-    /// the others. Transforms are composed in double relative to the eye and rounded to float once.
+    /// the others, nor does leaving out clusters. Transforms are composed in double relative to the eye and rounded to
+    /// float once.
     void build(std::span<const std::uint32_t> visible, const Camera& camera,
-               std::span<const std::vector<MeshPart>> batches);
+               std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters = {});
 
     [[nodiscard]] const std::vector<PackedInstance>& instances() const { return packed_; }
     [[nodiscard]] const std::vector<DrawCommand>& commands() const { return commands_; }
@@ -67,8 +76,9 @@ private:
     };
 
     void collect(std::span<const std::uint32_t> visible, const Camera& camera);
-    void end_mesh(std::size_t mesh);
-    void append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches);
+    void end_mesh(std::size_t mesh, const glm::dvec3& eye_world);
+    void append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters);
+    void append_part(const MeshPart& part, const VisibleRange& visible, const ClusterUse& clusters);
 
     const PlacedInstances& placed_;
     /// Instances are drawn by distance from the eye, in zones that end at these metres and a last one that does not
@@ -77,7 +87,9 @@ private:
     static constexpr std::size_t kZones = kZoneEnds_m.size() + 1;
     std::array<std::array<std::vector<VisibleRange>, 2>, kZones> visible_;  ///< by mesh; [1] the mirrored ones
     std::vector<PackedInstance> packed_;
-    std::array<std::array<std::vector<PackedInstance>, 2>, kZones> collected_;  ///< of the mesh being collected
+    std::vector<std::uint32_t> placed_of_packed_;                              ///< indices into placed_
+    std::array<std::array<std::vector<std::uint32_t>, 2>, kZones> collected_;  ///< of the mesh being collected
+    std::vector<IndexRun> runs_;
     std::vector<DrawCommand> commands_;
     std::vector<DrawRange> ranges_;
     std::uint64_t triangles_drawn_ = 0;

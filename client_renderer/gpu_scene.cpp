@@ -1,6 +1,7 @@
 #include "client_renderer/gpu_scene.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "shaders/client_blocks.h"
@@ -65,10 +66,22 @@ void GpuScene::upload_meshes() {
             texture.push_back(pack_texture(vertex));
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+        cluster(mesh, std::span{indices}.subspan(first_index_.back()));
     }
+    clusters_->finish();
     surface_vertices_ = static_buffer(surface);
     texture_vertices_ = static_buffer(texture);
     indices_ = static_buffer(indices);
+}
+
+void GpuScene::cluster(const scene::Mesh& mesh, std::span<std::uint32_t> indices) {
+    std::vector<ClusterRange>& ranges = clusters_of_primitives_.emplace_back();
+    for (const scene::Primitive& primitive : mesh.primitives) {
+        SurfaceBatch batch;
+        batch.material = primitive.material;
+        ranges.push_back(clusters_->add(mesh.vertices, indices.subspan(primitive.first_index, primitive.index_count),
+                                        material_of(batch).double_sided));
+    }
 }
 
 void GpuScene::collect_batches() {
@@ -76,14 +89,15 @@ void GpuScene::collect_batches() {
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
         const scene::Mesh& mesh = scene_.meshes[m];
         const bool vertex_colour = has_vertex_colours(mesh);
-        for (const scene::Primitive& primitive : mesh.primitives) {
+        for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+            const scene::Primitive& primitive = mesh.primitives[p];
             if (primitive.index_count == 0) continue;
             SurfaceBatch batch;
             batch.material = primitive.material;
             const SurfaceFeatures features = features_of(material_of(batch), vertex_colour, textures_.has_image());
-            parts_by_state[{features, primitive.material}].push_back({static_cast<int>(m), primitive.index_count,
-                                                                      first_index_[m] + primitive.first_index,
-                                                                      static_cast<std::int32_t>(first_vertex_[m])});
+            parts_by_state[{features, primitive.material}].push_back(
+                {static_cast<int>(m), primitive.index_count, first_index_[m] + primitive.first_index,
+                 static_cast<std::int32_t>(first_vertex_[m]), clusters_of_primitives_[m][p]});
         }
     }
     for (auto& [state, parts] : parts_by_state) {

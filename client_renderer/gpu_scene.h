@@ -3,8 +3,10 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "client_renderer/clusters.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/surface_features.h"
 #include "client_renderer/texture_store.h"
@@ -33,6 +35,9 @@ public:
     /// Mesh parts by batch, as DrawList takes them.
     [[nodiscard]] const std::vector<std::vector<MeshPart>>& parts() const { return parts_; }
 
+    /// Of the parts.
+    [[nodiscard]] Clusters& clusters() const { return *clusters_; }
+
     [[nodiscard]] const gl::Buffer& surface_vertices() const { return surface_vertices_; }
     [[nodiscard]] const gl::Buffer& texture_vertices() const { return texture_vertices_; }
     [[nodiscard]] const gl::Buffer& indices() const { return indices_; }
@@ -44,6 +49,8 @@ private:
     explicit GpuScene(const scene::Scene& scene) : scene_{scene}, textures_{scene} {}
 
     void upload_meshes();
+    /// Puts the indices of a mesh (a copy) in the order of its clusters.
+    void cluster(const scene::Mesh& mesh, std::span<std::uint32_t> indices);
     void collect_batches();
     void upload_materials();
     [[nodiscard]] Status compile_programs();
@@ -58,6 +65,8 @@ private:
     gl::Buffer materials_;
     std::vector<std::uint32_t> first_vertex_;  ///< by mesh
     std::vector<std::uint32_t> first_index_;   ///< by mesh
+    std::unique_ptr<Clusters> clusters_ = std::make_unique<Clusters>();
+    std::vector<std::vector<ClusterRange>> clusters_of_primitives_;  ///< by mesh and primitive
     std::map<SurfaceFeatures, gl::Program> programs_;
     std::vector<SurfaceBatch> batches_;
     std::vector<std::vector<MeshPart>> parts_;

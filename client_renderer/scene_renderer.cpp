@@ -205,7 +205,13 @@ private:
         state_.set_time(scene_time_s);
         placed_->move(state_);
         culling_->move();
-        draw_list_->build(culling_->visible(camera), camera, gpu_scene_->parts());
+        const std::vector<std::uint32_t>& visible = culling_->visible(camera);
+        ClusterUse clusters;
+        if (settings_.culling.skip && settings_.culling.clusters) {
+            clusters = {&gpu_scene_->clusters(), culling_->cluster_view(camera)};
+            gpu_scene_->clusters().counters() = {};
+        }
+        draw_list_->build(visible, camera, gpu_scene_->parts(), clusters);
         bind_frame(camera);
         counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
         lights_.build(scene_.point_lights, camera);

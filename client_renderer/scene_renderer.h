@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "client_renderer/culling.h"
+#include "client_renderer/culling_settings.h"
 #include "core/camera.h"
 #include "core/image.h"
 #include "core/result.h"

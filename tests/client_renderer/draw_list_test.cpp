@@ -23,7 +23,7 @@ protected:
         test::add_instance(scene_, 0, glm::scale(at(0.0, 0.0, -8.0), {-1.0, 1.0, 1.0}));
         scene_.finish();
         // Batch 0 draws a part of each mesh, batch 1 a second part of mesh 1.
-        batches_ = {{{0, 6, 0, 0}, {1, 3, 6, 4}}, {{1, 3, 9, 4}}};
+        batches_ = {{{0, 6, 0, 0, {}}, {1, 3, 6, 4, {}}}, {{1, 3, 9, 4, {}}}};
     }
 
     scene::Scene scene_;

@@ -228,6 +228,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     if (!settings.source.guard_band_rad && client_context_->is_software()) settings.source.guard_band_rad = 0.0;
     settings.textures = textures_;
     settings.reveal_margin_m = options_.reveal_margin_m;
+    settings.min_pixels = options_.culling.min_pixels;
     const auto prepare = [this](Layer& layer) {
         result_.source_views.push_back({layer.camera, layer.scene_time_s});
         warper_->prepare(layer);

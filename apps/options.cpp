@@ -102,6 +102,10 @@ void declare_skip(Declarer& declare) {
     Options& options = declare.options();
     declare.app().add_flag_callback(
         "--no-skip", [&options] { options.culling.skip = false; }, "draw everything, whether it is needed or not");
+    declare.value("--min-pixels", "N", "leave out what looks smaller than this while the viewer moves (0: nothing)",
+                  [&options](const std::string& text) {
+                      options.culling.min_pixels = number_in("--min-pixels", text, {0, 1000});
+                  });
     declare.value("--reveal-margin", "auto|M",
                   "hidden objects must be so for eyes this far; auto: as the head moves (auto)",
                   [&options](const std::string& text) {
@@ -277,7 +281,12 @@ void declare_bench(Declarer declare) {
 }
 
 void declare_info(Declarer declare) {
-    declare.path("FILE", "", declare.options().input, "scene file, frame folder or trace")->required();
+    Options& options = declare.options();
+    declare.path("FILE", "", options.input, "scene, frame folder or trace")->required();
+    declare.path("--culling", "FILE.png", options.culling_map, "a scene from above: what is drawn and what is skipped");
+    declare_pose(declare, "world_from_eye for --culling (the scene's start pose)");
+    declare_skip(declare);
+    declare_parameters(declare);
     declare_common(declare);
 }
 

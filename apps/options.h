@@ -78,6 +78,7 @@ struct Options {
     std::filesystem::path frame;    ///< --frame of render: folder for the frame the client would publish; may be empty
     std::filesystem::path objects;  ///< --objects of warp: movers at the target time; may be empty
     std::filesystem::path output;   ///< -o
+    std::filesystem::path culling_map;  ///< --culling of info: a picture of what is skipped; may be empty
 
     std::filesystem::path out;        ///< --out, folder for reports and images; empty if not given
     std::filesystem::path report;     ///< --report, file for the JSON report; empty if not given

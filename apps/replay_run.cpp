@@ -116,6 +116,8 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     renderer_->set_reveal_margin(reveal_margin_m(options_.reveal_margin_m, *client_predictor_, feed_, begin,
                                                  pose.world_from_head, clock_.published(frame),
                                                  clock_.end_of_life(frame)));
+    renderer_->set_viewer_moves(options_.culling.min_pixels > 0.0 &&
+                                viewer_moves(*client_predictor_, feed_, begin, clock_.end_of_life(frame)));
     const Stopwatch drawing;
     renderer_->draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
     client_draws_.push_back(renderer_->counters());
@@ -154,6 +156,7 @@ void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera&
 const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
     const std::uint64_t frame = clock_.frame_shown_at(refresh);
     if (drawn_frame_ != frame) draw_client_frame(frame);
+    renderer_->set_viewer_moves(false);  // the truth shows the smallest things
 
     const Refresh times = clock_.refresh(refresh);
     const TimePoint photon = times.photon();

@@ -102,6 +102,18 @@ HWY_INLINE MF in_frustum(const BoxVector& boxes, const FloatFrustum& frustum, un
     return inside;
 }
 
+/// Boxes whose bounding sphere looks at least so large across, metres per metre of distance from the eye.
+HWY_INLINE MF large_enough(const BoxVector& boxes, const std::array<float, 3>& eye, float least) {
+    const DF d;
+    const VF x = hn::Sub(boxes.centre_x, hn::Set(d, eye[0]));
+    const VF y = hn::Sub(boxes.centre_y, hn::Set(d, eye[1]));
+    const VF z = hn::Sub(boxes.centre_z, hn::Set(d, eye[2]));
+    const VF distance_2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    const VF radius_2 = hn::MulAdd(boxes.half_x, boxes.half_x,
+                                   hn::MulAdd(boxes.half_y, boxes.half_y, hn::Mul(boxes.half_z, boxes.half_z)));
+    return hn::Ge(hn::Mul(hn::Set(d, 4.0F), radius_2), hn::Mul(hn::Set(d, least * least), distance_2));
+}
+
 /// Where a vector of boxes lies in the buffer, in its pixels, and the reverse distance of their nearest points; 1e30
 /// where a box reaches before the near plane.
 struct Projected {

@@ -113,19 +113,6 @@ private:
         return is_hidden(*query_.occlusion, projected, 0);
     }
 
-    MF large_enough(const BoxVector& boxes) const {
-        const DF d;
-        const auto& eye = query_.eye_world;
-        const VF x = hn::Sub(boxes.centre_x, hn::Set(d, eye[0]));
-        const VF y = hn::Sub(boxes.centre_y, hn::Set(d, eye[1]));
-        const VF z = hn::Sub(boxes.centre_z, hn::Set(d, eye[2]));
-        const VF distance_2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-        const VF radius_2 = hn::MulAdd(boxes.half_x, boxes.half_x,
-                                       hn::MulAdd(boxes.half_y, boxes.half_y, hn::Mul(boxes.half_z, boxes.half_z)));
-        const float least = query_.least_size_per_distance;
-        return hn::Ge(hn::Mul(hn::Set(d, 4.0F), radius_2), hn::Mul(hn::Set(d, least * least), distance_2));
-    }
-
     void test(std::uint32_t first, std::uint32_t end, unsigned planes) {
         const DF d;
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
@@ -137,7 +124,8 @@ private:
             std::uint32_t bits = bits_of(in_frustum(boxes, query_.frustum, planes)) & all;
             counters_.items_outside += static_cast<std::uint64_t>(std::popcount(all & ~bits));
             if (query_.least_size_per_distance > 0) {
-                const std::uint32_t large = bits & bits_of(large_enough(boxes));
+                const std::uint32_t large =
+                    bits & bits_of(large_enough(boxes, query_.eye_world, query_.least_size_per_distance));
                 counters_.items_too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
                 bits = large;
             }

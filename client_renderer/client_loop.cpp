@@ -57,6 +57,10 @@ void ClientLoop::draw_and_publish() {
     renderer_.set_reveal_margin(reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled,
                                                 head.world_from_head, shown_from, shown_from + period_));
 
+    if (settings_.min_pixels > 0.0) {
+        renderer_.set_viewer_moves(viewer_moves(*predictor_, head_, sampled, shown_from + period_));
+    }
+
     ClientFrameRecord record;
     record.index = records_.size() + 1;
     record.times.pose_sampled = head.newest_sample;

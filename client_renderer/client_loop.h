@@ -21,6 +21,7 @@ struct ClientSettings {
     Camera camera;          ///< the display's size, field of view and near plane; its pose is ignored
     SourceSettings source;  ///< what is drawn for it
     std::optional<double> reveal_margin_m = 0.0;  ///< --reveal-margin, metres; nothing: as the head moves
+    double min_pixels = 0.0;                      ///< --min-pixels, to tell the renderer whether the viewer moves
     double max_hz = 0.0;                          ///< 0: as fast as it can
     bool predict_source_pose =
         true;               ///< draw for the middle of the frame's life on the display (--source-pose predicted)

@@ -29,6 +29,7 @@ struct ClusterTest {
     FloatFrustum frustum_relative;
     OcclusionBuffer::View view_relative;
     const OcclusionBuffer* occlusion;
+    float least_size_per_distance;
 };
 
 }  // namespace lw
@@ -71,6 +72,11 @@ void test_here(const BoxList& boxes, const ClusterRange& range, const ClusterTes
         const BoxVector relative = placed(load_boxes(boxes, range.first + i), test.relative_from_object);
         std::uint32_t bits = wanted & bits_of(in_frustum(relative, test.frustum_relative, FloatFrustum::kAllPlanes));
         counters.outside += static_cast<std::uint64_t>(std::popcount(wanted & ~bits));
+        if (test.least_size_per_distance > 0.0F) {
+            const std::uint32_t large = bits & bits_of(large_enough(relative, {}, test.least_size_per_distance));
+            counters.too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
+            bits = large;
+        }
         if (test.occlusion != nullptr && bits != 0) {
             Projected projected;
             project(relative, test.view_relative, projected);
@@ -116,6 +122,7 @@ ClusterTest test_of(const glm::dmat4& world_from_object, const ClusterView& view
     for (glm::dvec4& plane : relative.planes) plane.w += glm::dot(glm::dvec3{plane}, view.eye_world);
     test.frustum_relative = rounded(relative);
     test.occlusion = view.occlusion;
+    test.least_size_per_distance = static_cast<float>(view.least_size_per_distance);
     if (view.occlusion != nullptr) {
         test.view_relative = view.occlusion->view();
         test.view_relative.eye_world = {};

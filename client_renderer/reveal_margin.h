@@ -16,4 +16,9 @@ namespace lw {
                                      const HeadPoseFeed& feed, TimePoint now, const Pose& drawn_from,
                                      TimePoint shown_from, TimePoint shown_until);
 
+/// Whether the head is expected to move or turn by more than a sensor's noise from `now` to `shown_until`: faster than
+/// 2 cm or 2 degrees a second.
+[[nodiscard]] bool viewer_moves(HeadPosePredictor& predictor, const HeadPoseFeed& feed, TimePoint now,
+                                TimePoint shown_until);
+
 }  // namespace lw

@@ -164,6 +164,8 @@ public:
 
     void set_reveal_margin(double margin_m) override { culling_->set_reveal_margin(margin_m); }
 
+    void set_viewer_moves(bool moves) override { culling_->set_viewer_moves(moves); }
+
     void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
         state_.set_time(scene_time_s);
         state_.mover_placements(transforms);
@@ -202,26 +204,45 @@ private:
     // One sample per pixel into the targets of this size; they are drawn over by the next call.
     const RenderTargets& render(const Camera& camera, double scene_time_s) {
         const RenderTargets& targets = targets_of(camera.size_px);
+        decide_what_is_drawn(camera, scene_time_s);
+        bind_frame(camera);
+        counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
+        lights_.build(scene_.point_lights, camera);
+        lighting_.draw(targets, lights_);
+        return targets;
+    }
+
+    void decide_what_is_drawn(const Camera& camera, double scene_time_s) {
+        const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
         state_.set_time(scene_time_s);
         placed_->move(state_);
         culling_->move();
         const std::vector<std::uint32_t>& visible = culling_->visible(camera);
         ClusterUse clusters;
+        gpu_scene_->clusters().counters() = {};
         if (settings_.culling.skip && settings_.culling.clusters) {
             clusters = {&gpu_scene_->clusters(), culling_->cluster_view(camera)};
-            gpu_scene_->clusters().counters() = {};
         }
         draw_list_->build(visible, camera, gpu_scene_->parts(), clusters);
-        bind_frame(camera);
-        counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
-        lights_.build(scene_.point_lights, camera);
-        lighting_.draw(targets, lights_);
-        counters_.objects_tested += culling_->counters().tested;
-        counters_.objects_outside += culling_->counters().outside;
-        counters_.objects_occluded += culling_->counters().occluded;
+        if (settings_.clock != nullptr) counters_.culling += settings_.clock->now() - begin;
+        count_what_was_skipped();
+    }
+
+    void count_what_was_skipped() {
+        const CullingCounters& objects = culling_->counters();
+        counters_.objects_tested += objects.tested;
+        counters_.objects_outside += objects.outside;
+        counters_.objects_behind_walls += objects.behind_walls;
+        counters_.objects_occluded += objects.occluded;
+        counters_.objects_too_small += objects.too_small;
         counters_.objects_drawn += draw_list_->objects_drawn();
         counters_.triangles_drawn += draw_list_->triangles_drawn();
-        return targets;
+        const ClusterCounters& clusters = gpu_scene_->clusters().counters();
+        counters_.clusters_tested += clusters.tested;
+        counters_.clusters_outside += clusters.outside;
+        counters_.clusters_turned_away += clusters.turned_away;
+        counters_.clusters_occluded += clusters.occluded;
+        counters_.clusters_too_small += clusters.too_small;
     }
 
     // Keeps the last three sizes: a run alternates between at most a source, its truth's tiles and a fresh view.

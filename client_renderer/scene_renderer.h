@@ -6,6 +6,7 @@
 
 #include "client_renderer/culling_settings.h"
 #include "core/camera.h"
+#include "core/clock.h"
 #include "core/image.h"
 #include "core/result.h"
 #include "frame_link/rendered_frame.h"
@@ -19,12 +20,21 @@ struct DrawCounters {
     std::uint64_t objects_drawn = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t draw_calls = 0;
-    std::uint64_t objects_outside = 0;   ///< skipped: not in the field of view
-    std::uint64_t objects_occluded = 0;  ///< skipped: hidden behind others
+    std::uint64_t objects_outside = 0;       ///< skipped: not in the field of view
+    std::uint64_t objects_behind_walls = 0;  ///< skipped: no portal in view shows them
+    std::uint64_t objects_occluded = 0;      ///< skipped: hidden behind others
+    std::uint64_t objects_too_small = 0;     ///< skipped: below --min-pixels
+    std::uint64_t clusters_tested = 0;
+    std::uint64_t clusters_outside = 0;
+    std::uint64_t clusters_turned_away = 0;
+    std::uint64_t clusters_occluded = 0;
+    std::uint64_t clusters_too_small = 0;
+    Duration culling{};  ///< deciding what is drawn, with the draws for it; zero unless the settings have a clock
 };
 
 struct SceneRendererSettings {
     CullingSettings culling;  ///< whatever it skips, the picture is the same
+    Clock* clock = nullptr;   ///< for DrawCounters::culling; outlives the renderer
 };
 
 /// Belongs to one GL context and its thread: made, used and destroyed with that context current.
@@ -59,6 +69,10 @@ public:
     /// From the next draw on, what is skipped as hidden is hidden from every eye within `margin_m` metres of the
     /// camera's. It changes no pixel, only what the counters say.
     virtual void set_reveal_margin(double margin_m) { (void)margin_m; }
+
+    /// From the next draw on: objects below the settings' min_pixels are left out while the viewer moves. Before the
+    /// first call it stands still.
+    virtual void set_viewer_moves(bool moves) { (void)moves; }
 
     /// Placements of the movers at a scene time.
     virtual void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) = 0;

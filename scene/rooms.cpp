@@ -82,18 +82,20 @@ private:
 
     void add_room(int room) {
         const RoomSpace& space = layout_.rooms[static_cast<std::size_t>(room)];
-        const int cell = add_node(fmt::format("cell {}", room), root_, space.min_m);
-        cells_.push_back(cell);
+        const int cell = add_node(fmt::format("cell {}", room), root_, {});
         const glm::dvec3 half = 0.5 * (space.max_m - space.min_m);
-        (void)add_node("extent", cell, half, 0.0, half);
+        (void)add_node("extent", cell, space.min_m + half, 0.0, half);
+        // In the building's own space: neighbours then share the very same corners, and nothing shines through.
         place_mesh(add_mesh(make_room_shell(layout_, room)), cell, "walls", {});
         Random random{seed_, 1000U + static_cast<std::uint64_t>(room)};
+        const int furniture = add_node("furniture", cell, space.min_m);
+        furniture_.push_back(furniture);
         if (space.use == RoomUse::corridor) {
-            furnish_corridor(cell, space, random);
+            furnish_corridor(furniture, space, random);
         } else if (space.use == RoomUse::lobby) {
-            furnish_lobby(cell, space);
+            furnish_lobby(furniture, space);
         } else {
-            furnish_room(cell, space, random);
+            furnish_room(furniture, space, random);
         }
     }
 
@@ -215,7 +217,7 @@ private:
             const double turns = axis == 2 ? (side == 1 ? 0.0 : 0.5) : (side == 1 ? 0.25 : -0.25);
             if (axis == 2) hinge.x -= side == 1 ? 0.09 : 0.05;
             if (axis == 0) hinge.z -= side == 1 ? 0.05 : 0.09;
-            place(Furniture::door_leaf, cells_[static_cast<std::size_t>(room) - 1], hinge, turns);
+            place(Furniture::door_leaf, furniture_[static_cast<std::size_t>(room) - 1], hinge, turns);
             return;
         }
     }
@@ -262,7 +264,7 @@ private:
     std::uint64_t seed_;
     Scene scene_;
     int root_ = 0;
-    std::vector<int> cells_;  ///< nodes of the rooms 1..
+    std::vector<int> furniture_;  ///< nodes of the rooms 1.., at their minima
 };
 
 }  // namespace

@@ -41,22 +41,25 @@ void add_quad(MeshBuilder& builder, int axis, double place, double sign, Range u
     }
 }
 
-/// A wall with holes: its rectangle is cut along the edges of all holes.
-void add_wall(MeshBuilder& builder, int axis, double place, double sign, Range u, Range v,
+/// Where faces are cut, by axis: at the edges of all openings of a room. Every face of the room is cut there, so that
+/// faces meet corner to corner: a corner in the middle of another face's edge lets single pixels shine through.
+using Cuts = std::array<std::vector<double>, 3>;
+
+std::vector<double> cuts_within(const Cuts& cuts, int axis, Range range) {
+    std::vector<double> places{range.low};
+    for (const double cut : cuts[static_cast<std::size_t>(axis)]) {
+        if (cut > range.low + 1e-9 && cut < range.high - 1e-9) places.push_back(cut);
+    }
+    places.push_back(range.high);
+    return places;
+}
+
+void add_wall(MeshBuilder& builder, int axis, double place, double sign, Range u, Range v, const Cuts& cuts,
               const std::vector<const Opening3*>& holes) {
     const int u_axis = (axis + 1) % 3;
     const int v_axis = (axis + 2) % 3;
-    std::vector<double> us{u.low, u.high};
-    std::vector<double> vs{v.low, v.high};
-    for (const Opening3* hole : holes) {
-        us.insert(us.end(), {hole->min_m[u_axis], hole->max_m[u_axis]});
-        vs.insert(vs.end(), {hole->min_m[v_axis], hole->max_m[v_axis]});
-    }
-    for (std::vector<double>* cuts : {&us, &vs}) {
-        std::sort(cuts->begin(), cuts->end());
-        cuts->erase(std::unique(cuts->begin(), cuts->end(), [](double a, double b) { return b - a < 1e-9; }),
-                    cuts->end());
-    }
+    const std::vector<double> us = cuts_within(cuts, u_axis, u);
+    const std::vector<double> vs = cuts_within(cuts, v_axis, v);
     for (std::size_t i = 0; i + 1 < us.size(); ++i) {
         for (std::size_t j = 0; j + 1 < vs.size(); ++j) {
             const double middle_u = 0.5 * (us[i] + us[i + 1]);
@@ -70,20 +73,33 @@ void add_wall(MeshBuilder& builder, int axis, double place, double sign, Range u
     }
 }
 
-/// The four inner sides of an opening, from the wall's surface at `place` to the middle of the wall.
-void add_reveal(MeshBuilder& builder, const Opening3& opening, double place) {
+/// The four inner sides of an opening, from the wall's surface at `place` to the middle of the wall. Each is cut where
+/// the wall is, towards the wall only: in the middle it meets the side that belongs to the other room.
+void add_reveal(MeshBuilder& builder, const Opening3& opening, double place, const Cuts& cuts) {
     const int axis = opening.axis;
     const double middle = 0.5 * (opening.min_m[axis] + opening.max_m[axis]);
-    const Range depth{std::min(place, middle), std::max(place, middle)};
     for (const int step : {1, 2}) {
         const int across = (axis + step) % 3;
         const int along = (axis + 3 - step) % 3;
-        const Range extent{opening.min_m[along], opening.max_m[along]};
-        // add_quad wants the axes after `across`, in order: `along` comes first when `across` follows `axis`.
-        const Range u = (across + 1) % 3 == along ? extent : depth;
-        const Range v = (across + 1) % 3 == along ? depth : extent;
-        add_quad(builder, across, opening.min_m[across], 1.0, u, v);
-        add_quad(builder, across, opening.max_m[across], -1.0, u, v);
+        const std::vector<double> places = cuts_within(cuts, along, {opening.min_m[along], opening.max_m[along]});
+        for (const bool upper : {false, true}) {
+            const auto corner = [&](double at_along, double at_axis) {
+                glm::dvec3 point{0.0};
+                point[across] = upper ? opening.max_m[across] : opening.min_m[across];
+                point[along] = at_along;
+                point[axis] = at_axis;
+                return point;
+            };
+            std::vector<glm::dvec3> outline{corner(places.front(), middle)};
+            for (const double at : places) outline.push_back(corner(at, place));
+            outline.push_back(corner(places.back(), middle));
+            // It faces into the opening.
+            glm::dvec3 inwards{0.0};
+            inwards[across] = upper ? -1.0 : 1.0;
+            const glm::dvec3 normal = glm::cross(outline[1] - outline[0], outline.back() - outline[0]);
+            if (glm::dot(normal, inwards) < 0.0) std::reverse(outline.begin() + 1, outline.end());
+            builder.polygon(outline);
+        }
     }
 }
 
@@ -93,6 +109,24 @@ std::vector<const Opening3*> openings_of(const RoomsLayout& layout, int room, in
         if (opening.axis == axis && opening.rooms[room_is_lower ? 0 : 1] == room) found.push_back(&opening);
     }
     return found;
+}
+
+Cuts cuts_of(const RoomsLayout& layout, int room) {
+    Cuts cuts;
+    for (const Opening3& opening : layout.openings) {
+        if (opening.rooms[0] != room && opening.rooms[1] != room) continue;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (axis == opening.axis) continue;
+            auto& places = cuts[static_cast<std::size_t>(axis)];
+            places.insert(places.end(), {opening.min_m[axis], opening.max_m[axis]});
+        }
+    }
+    for (std::vector<double>& places : cuts) {
+        std::sort(places.begin(), places.end());
+        const auto same = [](double a, double b) { return b - a < 1e-9; };
+        places.erase(std::unique(places.begin(), places.end(), same), places.end());
+    }
+    return cuts;
 }
 
 void use_surface(MeshBuilder& builder, RoomUse room_use, int axis, bool upper, int room) {
@@ -112,9 +146,7 @@ void use_surface(MeshBuilder& builder, RoomUse room_use, int axis, bool upper, i
 Mesh make_room_shell(const RoomsLayout& layout, int room) {
     const RoomSpace& space = layout.rooms[static_cast<std::size_t>(room)];
     MeshBuilder builder{fmt::format("walls {}", room)};
-    glm::dmat4 object_from_layout{1.0};
-    object_from_layout[3] = glm::dvec4{-space.min_m, 1.0};
-    builder.place(object_from_layout);
+    const Cuts cuts = cuts_of(layout, room);
     for (int axis = 0; axis < 3; ++axis) {
         for (const bool upper : {false, true}) {
             use_surface(builder, space.use, axis, upper, room);
@@ -123,9 +155,9 @@ Mesh make_room_shell(const RoomsLayout& layout, int room) {
             const Range v{space.min_m[(axis + 2) % 3], space.max_m[(axis + 2) % 3]};
             // At its upper end the room is on the lower side of the wall.
             const std::vector<const Opening3*> holes = openings_of(layout, room, axis, upper);
-            add_wall(builder, axis, place, upper ? -1.0 : 1.0, u, v, holes);
+            add_wall(builder, axis, place, upper ? -1.0 : 1.0, u, v, cuts, holes);
             use(builder, kPaint, 0xE8E2D4);
-            for (const Opening3* hole : holes) add_reveal(builder, *hole, place);
+            for (const Opening3* hole : holes) add_reveal(builder, *hole, place, cuts);
         }
     }
     return builder.take();
@@ -133,6 +165,7 @@ Mesh make_room_shell(const RoomsLayout& layout, int room) {
 
 Mesh make_facade(const RoomsLayout& layout) {
     MeshBuilder builder{"facade"};
+    const Cuts cuts = cuts_of(layout, 0);
     for (const int axis : {0, 2}) {
         for (const bool upper : {false, true}) {
             use(builder, kBrick, 0xFFE9DC);
@@ -141,13 +174,14 @@ Mesh make_facade(const RoomsLayout& layout) {
             const Range v{layout.min_m[(axis + 2) % 3], layout.max_m[(axis + 2) % 3]};
             // The outside is beyond the upper wall: on the upper side of its openings.
             const std::vector<const Opening3*> holes = openings_of(layout, 0, axis, !upper);
-            add_wall(builder, axis, place, upper ? 1.0 : -1.0, u, v, holes);
+            add_wall(builder, axis, place, upper ? 1.0 : -1.0, u, v, cuts, holes);
             use(builder, kStone, 0xE2DAC8);
-            for (const Opening3* hole : holes) add_reveal(builder, *hole, place);
+            for (const Opening3* hole : holes) add_reveal(builder, *hole, place, cuts);
         }
     }
     use(builder, kRoofFelt, 0xB0B0B0);
-    add_quad(builder, 1, layout.max_m.y, 1.0, {layout.min_m.z, layout.max_m.z}, {layout.min_m.x, layout.max_m.x});
+    add_wall(builder, 1, layout.max_m.y, 1.0, {layout.min_m.z, layout.max_m.z}, {layout.min_m.x, layout.max_m.x}, cuts,
+             {});
     return builder.take();
 }
 

@@ -7,7 +7,7 @@
 namespace lw::scene {
 
 /// Inner surfaces of room `room` (not 0), with holes where its openings are and half the thickness of the wall around
-/// each; the other half belongs to the room on the other side. Object space: the layout's, moved to the room's minimum.
+/// each; the other half belongs to the room on the other side, and meets it exactly: both are in the layout's space.
 [[nodiscard]] Mesh make_room_shell(const RoomsLayout& layout, int room);
 
 /// Outer walls and roof, in the layout's space.

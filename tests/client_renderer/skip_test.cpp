@@ -34,8 +34,8 @@ struct Skipped {
 /// Compares pictures along a trace that starts where the scene's viewer does. `steps` poses, `step_s` apart.
 Skipped expect_equal_pictures(const scene::Scene& scene, const std::string& trace_name, int steps, double step_s,
                               double reveal_margin_m) {
-    auto skipping = renderer_of(scene, {true, reveal_margin_m});
-    auto drawing_all = renderer_of(scene, {false, 0.0});
+    auto skipping = renderer_of(scene, {.reveal_margin_m = reveal_margin_m});
+    auto drawing_all = renderer_of(scene, {.skip = false});
     auto trace = load_trace(trace_name);
     EXPECT_TRUE(trace.ok()) << trace.error().message();
     const Trace placed = trace->placed_at(*scene.start_pose, 0.0);
@@ -52,8 +52,8 @@ Skipped expect_equal_pictures(const scene::Scene& scene, const std::string& trac
         EXPECT_EQ(some.colour, all.colour) << trace_name << " at " << time_s;
         EXPECT_EQ(some.object_id, all.object_id) << trace_name << " at " << time_s;
         const DrawCounters& counters = skipping->counters();
-        EXPECT_EQ(counters.objects_tested,
-                  counters.objects_drawn + counters.objects_outside + counters.objects_occluded);
+        EXPECT_EQ(counters.objects_tested, counters.objects_drawn + counters.objects_outside +
+                                               counters.objects_occluded + counters.objects_behind_walls);
         EXPECT_EQ(drawing_all->counters().objects_drawn, counters.objects_tested);
         skipped.objects += counters.objects_tested;
         skipped.occluded += counters.objects_occluded;
@@ -69,6 +69,15 @@ TEST(GlSkip, TheCityLooksTheSame) {
     EXPECT_GT(exact.occluded, exact.objects / 5) << "houses hide much of a street";
     const Skipped with_margin = expect_equal_pictures(city, "look-around", 4, 1.1, 0.3);
     EXPECT_GT(with_margin.occluded, 0U);
+}
+
+TEST(GlSkip, RoomsLookTheSame) {
+    LW_NEED_GL();
+    const scene::Scene rooms = built_in("rooms", {{"rooms", 60.0}});
+    const Skipped exact = expect_equal_pictures(rooms, "walk", 6, 1.3, 0.0);
+    EXPECT_LT(exact.drawn, exact.objects / 10);
+    const Skipped with_margin = expect_equal_pictures(rooms, "look-around", 6, 0.9, 0.3);
+    EXPECT_LT(with_margin.drawn, with_margin.objects / 5);
 }
 
 }  // namespace

@@ -122,6 +122,10 @@ void CellGrid::find_solid(unsigned open_sides) {
     }
 }
 
+double CellGrid::solid_count() const {
+    return static_cast<double>(std::count(solid_.begin(), solid_.end(), std::uint8_t{1}));
+}
+
 CellBox CellGrid::take_largest_solid_box() {
     CellBox best;
     std::vector<std::uint8_t> common(static_cast<std::size_t>(kCells * kCells));
@@ -131,7 +135,8 @@ CellBox CellGrid::take_largest_solid_box() {
             for (std::size_t i = 0; i < common.size(); ++i) common[i] &= solid_[index(0, 0, last) + i];
             const Rectangle rectangle = largest_rectangle(common);
             const CellBox candidate{{rectangle.x0, rectangle.y0, first}, {rectangle.x1, rectangle.y1, last}};
-            if (rectangle.area() == 0) break;
+            // However many more layers there are, they have no more than this in common.
+            if (rectangle.area() * (kCells - first) <= best.count()) break;
             if (candidate.count() > best.count()) best = candidate;
         }
     }

@@ -36,6 +36,9 @@ public:
     /// `open_sides` (bits as in SolidBox) let nothing in.
     void find_solid(unsigned open_sides);
 
+    /// How many cells are solid: no box has more.
+    [[nodiscard]] double solid_count() const;
+
     /// The box of solid cells with the most cells; they are solid no longer. Empty when there are none.
     [[nodiscard]] CellBox take_largest_solid_box();
 

@@ -16,7 +16,7 @@ constexpr std::size_t kMostBoxes = 3;
 // A smaller box than this share of the mesh's own hides too little to be worth its time.
 constexpr double kSmallestShare = 0.01;
 // A box of this share is taken without looking whether one more side being open gives a larger one.
-constexpr double kEnoughShare = 0.2;
+constexpr double kEnoughShare = 0.06;
 constexpr int kRaysPerSide = 64;
 
 using Triangle = std::array<glm::dvec3, 3>;
@@ -67,6 +67,13 @@ void grow(Bounds& box, int axis, bool upwards, double reach, const OpaqueSurface
     double free = reach;
     std::vector<glm::dvec3> polygon;
     for (const Triangle& triangle : surface.triangles) {
+        const glm::dvec3 low = glm::min(triangle[0], glm::min(triangle[1], triangle[2]));
+        const glm::dvec3 high = glm::max(triangle[0], glm::max(triangle[1], triangle[2]));
+        bool beside = sign > 0.0 ? high[axis] < start : low[axis] > start;
+        for (int other = 0; other < 3; ++other) {
+            beside = beside || (other != axis && (high[other] <= box.min[other] || low[other] >= box.max[other]));
+        }
+        if (beside) continue;
         polygon.assign(triangle.begin(), triangle.end());
         clip(polygon, axis, start, sign);
         for (int other = 0; other < 3 && !polygon.empty(); ++other) {
@@ -186,8 +193,10 @@ std::vector<SolidBox> solid_boxes(const Mesh& mesh, const std::vector<Material>&
         std::vector<SolidBox> boxes;
         double largest = 0.0;
         while (boxes.size() < kMostBoxes) {
+            const double least = std::max(kSmallestShare * CellGrid::cell_count(), boxes.empty() ? best : 0.0);
+            if (grid.solid_count() < least) break;
             const CellBox cells = grid.take_largest_solid_box();
-            if (cells.count() < std::max(kSmallestShare * CellGrid::cell_count(), boxes.empty() ? best : 0.0)) break;
+            if (cells.count() < least) break;
             const auto solid = grown_and_checked(grid, cells, open_sides, surface);
             if (!solid) break;
             boxes.push_back(*solid);

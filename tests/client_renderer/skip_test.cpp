@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "client_renderer/scene_renderer.h"
 #include "frame_link/built_in_traces.h"
 #include "frame_link/trace.h"
@@ -78,6 +80,27 @@ TEST(GlSkip, RoomsLookTheSame) {
     EXPECT_LT(exact.drawn, exact.objects / 10);
     const Skipped with_margin = expect_equal_pictures(rooms, "look-around", 6, 0.9, 0.3);
     EXPECT_LT(with_margin.drawn, with_margin.objects / 5);
+}
+
+TEST(DataGlSkip, SharedScenesLookTheSameAlongRecordings) {
+    LW_NEED_SHARED_DATA();
+    LW_NEED_GL();
+    const std::filesystem::path data = test::shared_data_dir();
+    const std::vector<std::string> traces{
+        (data / "head_traces/eyenavgs_rutgers/user113_truck.csv").string(),
+        (data / "head_traces/questset/sample_movement_data.csv").string(),
+    };
+    for (const char* name :
+         {"garage/garage.gltf", "office_diorama/office_diorama.glb", "TeapotsGalore/TeapotsGalore.gltf",
+          "samplebuilding/subpass_scene_opaque.gltf", "home-theater/home-theater.gltf"}) {
+        const std::filesystem::path path = data / "gltf" / name;
+        if (!std::filesystem::exists(path)) continue;
+        auto scene = scene::load_scene(path.string(), {});
+        ASSERT_TRUE(scene.ok()) << scene.error().message();
+        for (const std::string& trace : traces) {
+            for (const double margin_m : {0.0, 0.2}) (void)expect_equal_pictures(*scene, trace, 3, 2.7, margin_m);
+        }
+    }
 }
 
 }  // namespace

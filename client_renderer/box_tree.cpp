@@ -191,7 +191,9 @@ public:
             const std::uint32_t end = bvh_.end_item(entry.node);
             if (!any) {
                 counters_.items_outside += end - first;
-            } else if (!tests_left || node.count > 0) {
+            } else if (!tests_left) {
+                take(first, end, entry.planes);
+            } else if (node.count > 0) {
                 test(first, end, entry.planes);
             } else {
                 stack[depth++] = {node.first + 1, entry.planes};
@@ -205,6 +207,12 @@ private:
         std::uint32_t node;
         PlaneBytes planes;
     };
+
+    void take(std::uint32_t first, std::uint32_t end, const PlaneBytes& planes) {
+        std::uint32_t frusta = 0;
+        for (std::size_t f = 0; f < frusta_.size(); ++f) frusta |= (planes[f] != kOutside ? 1U : 0U) << f;
+        for (std::uint32_t i = first; i < end; ++i) seen_.push_back({bvh_.order()[i], frusta});
+    }
 
     void test(std::uint32_t first, std::uint32_t end, const PlaneBytes& planes) {
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));

@@ -184,7 +184,7 @@ std::size_t Occluders::draw(const Camera& camera, double margin_m, OcclusionBuff
     for (const Choice& choice : choices_) {
         const auto solid = usable(occluders_[choice.occluder], camera, margin_m);
         if (!solid) continue;
-        buffer.add(*solid);
+        buffer.add(*solid, occluders_[choice.occluder].bounds_world);
         ++drawn;
     }
     return drawn;

@@ -27,7 +27,7 @@ struct Occluder {
 /// One thread at a time.
 class Occluders {
 public:
-    static constexpr std::size_t kMostDrawn = 96;  ///< per view: the ones that look largest
+    static constexpr std::size_t kMostDrawn = 512;  ///< per view: the ones that look largest
 
     /// Finds the boxes of every mesh that is used (milliseconds each) and joins those of static instances that touch.
     explicit Occluders(const PlacedInstances& placed);

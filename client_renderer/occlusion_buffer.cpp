@@ -38,10 +38,10 @@ HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
 
-void draw_here(const ProjectedSolid& solid, glm::ivec2 size_px, int stride, float* pixels) {
+void draw_here(const ProjectedSolid& solid, glm::ivec2 size_px, glm::ivec2 rows, int stride, float* pixels) {
     const DF d;
     const auto lanes = static_cast<int>(hn::Lanes(d));
-    for (int y = 0; y < size_px.y; ++y) {
+    for (int y = rows.x; y <= rows.y; ++y) {
         // The run of whole pixels inside all half planes.
         float low = 0.0F;
         auto high = static_cast<float>(size_px.x - 1);
@@ -164,7 +164,32 @@ void OcclusionBuffer::begin(const Camera& camera) {
     view_.near_m = static_cast<float>(camera.near_m);
 }
 
-void OcclusionBuffer::add(const ConvexSolid& solid) {
+void OcclusionBuffer::add(const ConvexSolid& solid, const scene::Bounds& bounds_world) {
+    double top = size_px_.y;
+    double bottom = 0.0;
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const glm::dvec3 point{(corner & 1U) != 0 ? bounds_world.max.x : bounds_world.min.x,
+                               (corner & 2U) != 0 ? bounds_world.max.y : bounds_world.min.y,
+                               (corner & 4U) != 0 ? bounds_world.max.z : bounds_world.min.z};
+        const glm::dvec3 relative = point - eye_world_;
+        double distance = 0.0;
+        double y = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const auto k = static_cast<std::size_t>(i);
+            distance += double{view_.distance[k]} * relative[i];
+            y += double{view_.y_px[k]} * relative[i];
+        }
+        if (distance < view_.near_m) return add(solid, 0, size_px_.y - 1);
+        top = std::min(top, y / distance);
+        bottom = std::max(bottom, y / distance);
+    }
+    // A row too many costs nothing, one too few only hides less.
+    const double last = size_px_.y - 1;
+    add(solid, static_cast<int>(std::clamp(top - 1.0, 0.0, last)),
+        static_cast<int>(std::clamp(bottom + 1.0, -1.0, last)));
+}
+
+void OcclusionBuffer::add(const ConvexSolid& solid, int first_row, int last_row) {
     // Along the ray of a pixel, at reverse distance u, plane i is met where u = dot(normal, ray) / offset: affine in
     // the pixel. Planes that face the eye bound u from above, the others from below.
     std::array<glm::dvec3, 6> met{};
@@ -191,7 +216,7 @@ void OcclusionBuffer::add(const ConvexSolid& solid) {
         }
     }
     if (projected.front_count == 0) return;
-    HWY_DYNAMIC_DISPATCH(draw_here)(projected, size_px_, stride_, pixels_.data());
+    HWY_DYNAMIC_DISPATCH(draw_here)(projected, size_px_, {first_row, last_row}, stride_, pixels_.data());
 }
 
 void OcclusionBuffer::finish() { HWY_DYNAMIC_DISPATCH(reduce_here)(pixels_.data(), stride_, rows_, tiles_.data()); }

@@ -32,7 +32,9 @@ public:
     void begin(const Camera& camera);
 
     /// Draws a solid. Ignored when the eye is inside it.
-    void add(const ConvexSolid& solid);
+    void add(const ConvexSolid& solid) { add(solid, 0, size_px_.y - 1); }
+    /// The same, for one that lies inside `bounds_world`: only the rows that those reach are looked at.
+    void add(const ConvexSolid& solid, const scene::Bounds& bounds_world);
 
     /// Ends drawing: tests come after this.
     void finish();
@@ -67,6 +69,8 @@ public:
     [[nodiscard]] const View& view() const { return view_; }
 
 private:
+    void add(const ConvexSolid& solid, int first_row, int last_row);
+
     glm::ivec2 size_px_{0};
     int stride_ = 0;
     int rows_ = 0;

@@ -136,7 +136,10 @@ TEST(BoxTree, HiddenSubtreesAreHiddenItemByItem) {
         const Camera camera = random_camera(random);
         OcclusionBuffer buffer;
         buffer.begin(camera);
-        for (const scene::Bounds& wall : random_boxes(random, 40)) {
+        for (const scene::Bounds& small : random_boxes(random, 40)) {
+            // Large enough to hide something.
+            const scene::Bounds wall{small.centre() - 8.0 * small.half_size(),
+                                     small.centre() + 8.0 * small.half_size()};
             ConvexSolid solid;
             for (int side = 0; side < 6; ++side) {
                 const bool upper = side % 2 == 1;

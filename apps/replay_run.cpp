@@ -150,7 +150,7 @@ void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera&
     costs_.warp_ms[method].push_back(warping.ms());
     pictures_.shown[method] = shown.colour;
     pictures_.hole_fraction[method] = warper.hole_fraction();
-    if (method == 0) bad_depth_count_ += warper.method().counters().bad_depth;
+    if (method == 0) bad_depth_count_ += warper.counters().bad_depth;
 }
 
 const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {

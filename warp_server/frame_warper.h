@@ -3,6 +3,8 @@
 /// line all call.
 
 #include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -24,18 +26,32 @@ public:
     /// Runs prepare and stores the result in the layer (client's thread, before publishing).
     void prepare(Layer& layer) const;
 
-    /// Warps and fills. `frame` has at least one layer. The result is valid until the next call. Server thread.
+    /// Warps and fills. `frame` has at least one layer; size, field of view and near plane of the target are usable
+    /// (programmer errors otherwise). A head pose that is none (not finite, no direction) is replaced by the last good
+    /// one, or by the first layer's before there was one; a mover's placement that is none by its last good one; a
+    /// layer whose camera is none is left out, and when no layer is left the picture shown before is shown again. All
+    /// of that is counted. The result is valid until the next call. Server thread.
     const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target);
+
+    /// What the last picture could not use, over all layers.
+    [[nodiscard]] const WarpCounters& counters() const { return counters_; }
 
     [[nodiscard]] const WarpMethod& method() const { return *method_; }
     /// Share of unreached pixels of the last frame, before fill. Computed on demand from its coverage.
     [[nodiscard]] double hole_fraction() const { return lw::hole_fraction(display_frame_); }
 
 private:
+    [[nodiscard]] WarpTarget usable_target(const RenderedFrame& frame, const WarpTarget& target);
+    void hold_placements(std::span<const ObjectTransform> movers);
+
     std::unique_ptr<WarpMethod> method_;
     std::unique_ptr<Fill> fill_;
     DisplayFrame display_frame_;
     DisplayFrame layer_frame_;  // scratch: second and further layers before they are merged
+    WarpCounters counters_;
+    std::optional<Pose> good_head_;
+    std::vector<ObjectTransform> good_movers_;    // by ascending id: the last usable placement of each
+    std::vector<ObjectTransform> usable_movers_;  // of this picture
 };
 
 }  // namespace lw

@@ -75,7 +75,7 @@ void ServerLoop::make_picture(const RenderedFrame& frame, const PacerPlan& plan,
     record.warp_begin = parts_.clock.now();
     const DisplayFrame& picture = parts_.warper.warp(frame, target);
     record.warp_end = parts_.clock.now();
-    record.counters = parts_.warper.method().counters();
+    record.counters = parts_.warper.counters();
 
     parts_.presenter.present(picture, plan.refresh);
     record.presented = parts_.clock.now();

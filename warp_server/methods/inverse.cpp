@@ -13,6 +13,8 @@ namespace {
 
 // A search that ended farther than this from its pixel found no surface there.
 constexpr float kAcceptedErrorPx = 1.0F;
+// Beyond any picture, and far from overflow.
+constexpr float kLostPx = 1e6F;
 
 class InverseMethod final : public WarpMethod {
 public:
@@ -66,6 +68,7 @@ private:
         if (!(h.z > 0.0F)) return;
         const glm::vec2 limit = glm::vec2{size_px_} - 1e-3F;
         const glm::vec2 turned = glm::vec2{h} / h.z;
+        if (std::isnan(turned.x) || std::isnan(turned.y)) return;
         glm::vec2 source_px = glm::clamp(turned, glm::vec2{0.0F}, limit);
         float depth = -1.0F;
         glm::vec2 error_px{1e9F};
@@ -74,6 +77,8 @@ private:
             depth = place(static_cast<int>(source_px.x), static_cast<int>(source_px.y), source_px, landed);
             if (depth < 0.0F) return;
             error_px = pixel - landed;
+            // A place with w next to 0 may be infinitely far or no number: no step leads back from there.
+            if (!(std::abs(error_px.x) < kLostPx && std::abs(error_px.y) < kLostPx)) return;
             if (step < steps_) source_px = glm::clamp(source_px + error_px, glm::vec2{0.0F}, limit);
         }
         if (depth > 1.0F || glm::dot(error_px, error_px) > kAcceptedErrorPx * kAcceptedErrorPx) return;

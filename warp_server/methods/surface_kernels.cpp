@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <type_traits>
 
 #include "warp_server/methods/lanes.h"
@@ -219,13 +220,19 @@ private:
         __builtin_prefetch(depths_ + index + kPrefetchRows * target_width_, 1);
         __builtin_prefetch(colours_ + index + kPrefetchRows * target_width_, 1);
         const VF shown = hn::LoadU(DF{}, depths_ + index);
-        const auto nearer = hn::And(inside, hn::Lt(shown, solved.depth));
-        if (hn::AllFalse(DF{}, nearer)) return;
+        const auto not_behind = hn::And(inside, hn::Le(shown, solved.depth));
+        if (hn::AllFalse(DF{}, not_behind)) return;
         auto* colours = reinterpret_cast<std::uint32_t*>(colours_ + index);
-        const Taps taps = reader_.taps_of(hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy), nearer);
-        const auto colour = reader_.encoded(reader_.read_bilinear(taps.index, taps.fx, taps.fy));
-        hn::BlendedStore(solved.depth, nearer, DF{}, depths_ + index);
-        hn::BlendedStore(colour, hn::RebindMask(DU{}, nearer), DU{}, colours);
+        const Taps taps = reader_.taps_of(hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy), not_behind);
+        auto colour = reader_.encoded(reader_.read_bilinear(taps.index, taps.fx, taps.fy));
+        // Pieces overlap a little, and the number of lanes decides which comes first: of equal depths the larger word.
+        const auto equal = hn::And(not_behind, hn::Eq(shown, solved.depth));
+        if (!hn::AllFalse(DF{}, equal)) {
+            const auto larger = hn::Max(colour, hn::LoadU(DU{}, colours));
+            colour = hn::IfThenElse(hn::RebindMask(DU{}, equal), larger, colour);
+        }
+        hn::BlendedStore(solved.depth, not_behind, DF{}, depths_ + index);
+        hn::BlendedStore(colour, hn::RebindMask(DU{}, not_behind), DU{}, colours);
     }
 
     // Opaque pixels anywhere, each once.
@@ -245,11 +252,16 @@ private:
         for (std::uint32_t bits = bits_of(DF{}, inside); bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
             float& shown = depths_[indices[lane]];
-            if (shown >= depths[lane]) continue;
-            shown = depths[lane];
+            if (shown > depths[lane]) continue;
             const std::uint64_t word = reader_.read_word(tap[lane], fx[lane], fy[lane]);
             const auto channel = [&](unsigned shift) { return reader_.encoded_word(word, shift); };
-            colours_[indices[lane]] = {channel(0), channel(16), channel(32), 255};
+            const Rgba8 colour{channel(0), channel(16), channel(32), 255};
+            Rgba8& kept = colours_[indices[lane]];
+            if (shown == depths[lane] && std::bit_cast<std::uint32_t>(kept) > std::bit_cast<std::uint32_t>(colour)) {
+                continue;
+            }
+            shown = depths[lane];
+            kept = colour;
         }
     }
 

@@ -17,6 +17,11 @@ void declare_bench_run(Declarer& declare) {
                       option_values::check_name("suite", "--suite", text, known);
                       options.bench_suite = text;
                   });
+    declare.value("--case", "SEED", "suite stability: this case alone; with --out its frame too",
+                  [&options](const std::string& text) {
+                      constexpr option_values::Range kSeeds{0, 9e15, true};
+                      options.bench_case = static_cast<std::uint64_t>(option_values::number_in("--case", text, kSeeds));
+                  });
     declare.app().add_flag("--quick", options.quick, "a small part of it, at most three minutes");
     declare.path("--data", "DIR", options.data, "folder with gltf/ and head_traces/ (../shared/data)");
     declare.value("--part", "all|errors|times",

@@ -107,6 +107,7 @@ private:
         if (expected.largest_stretch > kLargestStretch || expected.smallest_stretch < kSmallestStretch) return;
         switch (kind_) {
             case MethodKind::points:
+            case MethodKind::squares:
                 check_point(expected, x, y);
                 return;
             case MethodKind::lattice:
@@ -174,7 +175,9 @@ private:
             // One-sided differences over a thousandth of a pixel: their bend is far below the bound.
             return std::clamp(0.5L * sum / step, 0.5L, Exact{kLargestHalfExtentPx});
         };
-        return {half(&ExactVec2::x), half(&ExactVec2::y)};
+        const ExactVec2 halves{half(&ExactVec2::x), half(&ExactVec2::y)};
+        const Exact larger = std::max(halves.x, halves.y);
+        return kind_ == MethodKind::squares ? ExactVec2{larger, larger} : halves;
     }
 
     // Does the point of a source pixel around the expected place cover the pixel's centre for certain?
@@ -187,6 +190,7 @@ private:
                 const auto placed = oracle_.place(expected.region, {source_x + 0.5L, source_y + 0.5L},
                                                   pixels_.depth.at(source_x, source_y));
                 if (!placed || placed->depth > 0.999L) continue;
+                if (kind_ == MethodKind::squares && !in_picture(placed->position_px)) continue;
                 const ExactVec2 half = half_extents(expected.region, source_x, source_y, *placed);
                 if (std::abs(x + 0.5L - placed->position_px.x) < half.x - kBound_px &&
                     std::abs(y + 0.5L - placed->position_px.y) < half.y - kBound_px) {
@@ -195,6 +199,11 @@ private:
             }
         }
         return false;
+    }
+
+    [[nodiscard]] bool in_picture(const ExactVec2& place_px) const {
+        return place_px.x > kBound_px && place_px.x < frame_.colour.width() - kBound_px && place_px.y > kBound_px &&
+               place_px.y < frame_.colour.height() - kBound_px;
     }
 
     // The source place that the colour tells, against the one it must be.
@@ -218,7 +227,7 @@ private:
     // What has another depth is a sheet.
     void check_sheet(const ExpectedPixel& expected, int x, int y) {
         const Exact off = std::abs(frame_.depth.at(x, y) - expected.depth);
-        if (!reached(x, y) || off > 0.01L * expected.depth) return;
+        if (!reached(x, y) || off > 1e-4L * expected.depth) return;
         check_lattice(expected, expected.source_px, expected.depth, x, y);
     }
 
@@ -289,6 +298,7 @@ MethodKind kind_of(std::string_view method) {
     if (name == "rotation") return MethodKind::turned;
     if (name == "inverse" || name == "inverse-gl") return MethodKind::fixed_point;
     if (name == "surface" || name == "surface-gl") return MethodKind::lattice;
+    if (name == "points") return MethodKind::squares;
     if (name == "mesh") return MethodKind::sheets;
     return MethodKind::points;
 }
@@ -299,7 +309,8 @@ OracleMotion motion_of(MethodKind kind) {
 }
 
 CasePattern pattern_of(MethodKind kind) {
-    return kind == MethodKind::points ? CasePattern::index : CasePattern::lattice;
+    const bool shows_pixels = kind == MethodKind::points || kind == MethodKind::squares;
+    return shows_pixels ? CasePattern::index : CasePattern::lattice;
 }
 
 MethodErrors check_picture(const PictureOracle& oracle, const Layer& layer, MethodKind kind,

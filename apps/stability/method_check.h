@@ -45,6 +45,7 @@ struct MethodErrors {
 /// How a method shows its source, and so what its pictures can be asked.
 enum class MethodKind : std::uint8_t {
     points,      ///< source pixels as they are: a point must touch the pixel that shows it
+    squares,     ///< the same with GL's points: as high as wide, and clipped with their centres
     lattice,     ///< bilinear reads at an exact place: the colour tells the place
     turned,      ///< the same, blind to translation and movers
     unturned,    ///< the same, blind to rotation too

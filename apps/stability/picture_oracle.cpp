@@ -13,9 +13,12 @@ constexpr Exact kInside_px = 2.0L;
 // target pixels to each side, and a method joins neighbours up to a pixel beyond.
 Exact reach_px(Exact smallest_stretch) { return 2 + 3 / std::max(smallest_stretch, Exact{1e-6}); }
 
+// A splat reaches 2 pixels; and a pixel has its own half.
+constexpr Exact kReach_px = 2.5L;
+constexpr Exact kMagnified = 4;
+
 // The nearest that a plane is within the reach of a splat around a target pixel; 1 where it reaches an eye plane.
 Exact nearest_around(const ExactHomography& homography, int x, int y) {
-    constexpr Exact kReach_px = 2.5L;
     Exact nearest = 0;
     for (const Exact dx : {-kReach_px, kReach_px}) {
         for (const Exact dy : {-kReach_px, kReach_px}) {
@@ -35,28 +38,60 @@ PictureOracle::PictureOracle(const StabilityCase& made, OracleMotion motion) : m
         // All is at infinity: one region.
         CaseRegion all{0, 0, made.source.size_px.x, made.source.size_px.y, 0, {}};
         const ExactReprojection reprojection{made.source, target_, nullptr};
-        moved_.push_back({all, reprojection, ExactHomography::of(reprojection, all.plane)});
+        moved_.push_back(moved_region(all, reprojection));
         return;
     }
     for (const CaseRegion& region : made.regions) {
         const std::optional<MoverMotion> of_region = made.motion_of(region.id);
         const ExactReprojection reprojection{made.source, target_, of_region ? &*of_region : nullptr};
-        moved_.push_back({region, reprojection, ExactHomography::of(reprojection, region.plane)});
+        moved_.push_back(moved_region(region, reprojection));
     }
+}
+
+PictureOracle::Moved PictureOracle::moved_region(const CaseRegion& region, const ExactReprojection& reprojection) {
+    Moved moved{region, reprojection, ExactHomography::of(reprojection, region.plane), {}, {}, -1};
+    bool first = true;
+    for (const int x : {region.x0, region.x1}) {
+        for (const int y : {region.y0, region.y1}) {
+            const auto corner = reprojection.place(x, y, region.plane.at(x, y));
+            if (!corner) {
+                moved.nearest = -1;
+                return moved;
+            }
+            const ExactVec2& place = corner->position_px;
+            moved.low_px =
+                first ? place : ExactVec2{std::min(moved.low_px.x, place.x), std::min(moved.low_px.y, place.y)};
+            moved.high_px =
+                first ? place : ExactVec2{std::max(moved.high_px.x, place.x), std::max(moved.high_px.y, place.y)};
+            moved.nearest = std::max(moved.nearest, corner->depth);
+            first = false;
+        }
+    }
+    return moved;
 }
 
 ExpectedPixel PictureOracle::at(int x, int y) const {
     ExpectedPixel found;
     found.kind = ExpectedPixel::Kind::nothing;
+    bool is_magnified = false;
     Exact nearest_other = -1;  // of surfaces whose surroundings reach the pixel
     for (std::size_t i = 0; i < moved_.size(); ++i) {
         const Moved& moved = moved_[i];
         if (!moved.homography) return {};  // collapsed: anything may lie on its line
         const auto source = moved.homography->source_of(x + 0.5L, y + 0.5L);
-        if (!source) continue;
+        const bool in_box = moved.box_holds(x + 0.5L, y + 0.5L, kReach_px);
+        if (!source) {
+            if (in_box) nearest_other = std::max(nearest_other, moved.nearest);
+            continue;
+        }
         const ExactJacobian jacobian = moved.homography->jacobian_at(source->place_px);
         const Exact smallest = jacobian.smallest_stretch();
-        if (!moved.region.contains(source->place_px, -reach_px(smallest))) continue;
+        if (!moved.region.contains(source->place_px, -reach_px(smallest))) {
+            if (in_box) nearest_other = std::max(nearest_other, moved.nearest);
+            const bool close = moved.region.contains(source->place_px, -reach_px(smallest) - kReach_px);
+            is_magnified = is_magnified || (close && jacobian.largest_stretch() > kMagnified);
+            continue;
+        }
         const Exact depth = source->target_depth;
         // From its back a surface may show (as points) or not (as a surface).
         if (jacobian.determinant() <= 0) return {};
@@ -80,6 +115,7 @@ ExpectedPixel PictureOracle::at(int x, int y) const {
         found.largest_stretch = jacobian.largest_stretch();
         found.smallest_stretch = smallest;
     }
+    if (is_magnified && found.kind == ExpectedPixel::Kind::nothing) return {};  // rims are as wide as pixels are large
     // 2 %: more than any two samples of one depth step differ.
     if (nearest_other >= 0 && nearest_other >= 0.98L * std::max(found.depth, Exact{0}))
         found.kind = ExpectedPixel::Kind::unclear;

@@ -57,7 +57,17 @@ private:
         CaseRegion region;
         ExactReprojection reprojection;
         std::optional<ExactHomography> homography;
+        // Where the region's corners land and the nearest of their depths; no box when one is behind the eye.
+        ExactVec2 low_px;
+        ExactVec2 high_px;
+        Exact nearest = -1;
+
+        [[nodiscard]] bool box_holds(Exact x_px, Exact y_px, Exact margin_px) const {
+            return nearest >= 0 && x_px >= low_px.x - margin_px && x_px <= high_px.x + margin_px &&
+                   y_px >= low_px.y - margin_px && y_px <= high_px.y + margin_px;
+        }
     };
+    [[nodiscard]] static Moved moved_region(const CaseRegion& region, const ExactReprojection& reprojection);
 
     const StabilityCase& made_;
     Camera target_;

@@ -119,9 +119,15 @@ private:
         const double least_depth = made_.source.near_m / kFarthest_m;
         const bool mixed = random_.chance(0.5);
         const double common = random_.log_uniform(least_depth, limits_.nearest_depth / (1.0 + limits_.slant));
-        for (int y = 0; y < size_px.y; y += rows) {
-            for (int x = 0; x < size_px.x; x += columns) {
-                CaseRegion region{x, y, std::min(x + columns, size_px.x), std::min(y + rows, size_px.y), 0, {}};
+        // Within the promised range no surface is thinner than 4 px: whether thinner ones are joined to their
+        // neighbours is a method's choice.
+        const int thinnest = range_ == CaseRange::promised ? 4 : 1;
+        const auto end_of = [&](int begin, int step, int size) {
+            return size - begin - step < thinnest ? size : begin + step;
+        };
+        for (int y = 0; y < size_px.y; y = end_of(y, rows, size_px.y)) {
+            for (int x = 0; x < size_px.x; x = end_of(x, columns, size_px.x)) {
+                CaseRegion region{x, y, end_of(x, columns, size_px.x), end_of(y, rows, size_px.y), 0, {}};
                 if (made_.regions.size() + 1 < 65535 && random_.chance(0.5)) {
                     region.id = static_cast<ObjectId>(made_.regions.size() + 1);
                 }

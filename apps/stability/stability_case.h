@@ -13,9 +13,9 @@ namespace lw::stability {
 
 /// How far a case may go.
 enum class CaseRange : std::uint8_t {
-    /// What the bounds of docs/accuracy.md are promised for: field of view 20 to 150 degrees (up to 75 degrees
-    /// off the axis), up to 4096 px, turns up
-    /// to 90 degrees, 10 near planes to 10,000 km away, object scale 1e-3 to 1e3, up to 10,000 km from the origin.
+    /// What the bounds of docs/accuracy.md are promised for: field of view 20 to 150 degrees, up to 75
+    /// degrees off the axis, up to 4096 px, turns up to 90 degrees, 10 near planes to 10,000 km away, object scale 1e-3
+    /// to 1e3, up to 10,000 km from the origin.
     promised,
     /// Beyond: 1 to 170 degrees, sizes from 1x1, surfaces from the near plane on and seen edge-on, object scale 1e-4 to
     /// 1e4, heads and objects that jump anywhere.

@@ -29,9 +29,10 @@ struct WorstError {
 /// What was found wrong, over any number of pictures.
 struct MethodErrors {
     std::uint64_t cases = 0;
-    std::uint64_t pixels = 0;  ///< compared
-    WorstError place_px;       ///< distance from where it belongs, target pixels, beyond what the pixel can tell
-    WorstError depth;          ///< relative
+    std::uint64_t faulty_cases = 0;  ///< with a pixel that one of the four counts below counted
+    std::uint64_t pixels = 0;        ///< compared
+    WorstError place_px;             ///< distance from where it belongs, target pixels, beyond what the pixel can tell
+    WorstError depth;                ///< relative
     std::uint64_t wrong_surface = 0;
     std::uint64_t missing = 0;   ///< holes where a surface must be
     std::uint64_t invented = 0;  ///< shown where nothing is

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace lw::stability {
 namespace {
@@ -130,6 +131,20 @@ std::optional<ExactJacobian> PictureOracle::jacobian_at(int region, const ExactV
     const Moved& moved = moved_[static_cast<std::size_t>(region)];
     if (!moved.homography) return std::nullopt;
     return moved.homography->jacobian_at(source_px);
+}
+
+PictureOracle::DepthRange PictureOracle::depth_around(int region, const ExactVec2& target_px, Exact margin_px) const {
+    const Moved& moved = moved_[static_cast<std::size_t>(region)];
+    DepthRange range{std::numeric_limits<Exact>::max(), 0};
+    for (const Exact dx : {-margin_px, margin_px}) {
+        for (const Exact dy : {-margin_px, margin_px}) {
+            const auto source = moved.homography->source_of(target_px.x + dx, target_px.y + dy);
+            if (!source) continue;
+            range.low = std::min(range.low, source->target_depth);
+            range.high = std::max(range.high, source->target_depth);
+        }
+    }
+    return range;
 }
 
 int PictureOracle::region_of(int x, int y) const {

@@ -47,6 +47,13 @@ public:
     /// d(target) / d(source) of a region's plane at a source place before the target's eye.
     [[nodiscard]] std::optional<ExactJacobian> jacobian_at(int region, const ExactVec2& source_px) const;
 
+    /// Least and largest target depth of a region's plane within `margin_px` of a target place.
+    struct DepthRange {
+        Exact low = 0;
+        Exact high = 0;
+    };
+    [[nodiscard]] DepthRange depth_around(int region, const ExactVec2& target_px, Exact margin_px) const;
+
     /// Index of the region of a source pixel.
     [[nodiscard]] int region_of(int x, int y) const;
 

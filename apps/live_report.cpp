@@ -55,8 +55,6 @@ LiveSummary summary_of(const LiveResult& result) {
         wake_late.push_back(refresh.latched - refresh.planned_wake);
         summary.bad_depth_pixels += refresh.counters.bad_depth;
         summary.unknown_object_pixels += refresh.counters.unknown_object;
-        summary.bad_placements += refresh.counters.bad_placement;
-        summary.bad_layers += refresh.counters.bad_layer;
     }
     summary.warp_ms = distribution_ms(warp);
     summary.wake_late_ms = distribution_ms(wake_late);
@@ -96,8 +94,6 @@ void describe_live_run(Report& report, const Options& options, const LiveResult&
     report.set("scheduling", name_of(result.scheduling));
     report.set("counters/bad_depth_pixels", summary.bad_depth_pixels);
     report.set("counters/unknown_object_pixels", summary.unknown_object_pixels);
-    report.set("counters/bad_placements", summary.bad_placements);
-    report.set("counters/bad_layers", summary.bad_layers);
     report.set("counters/bad_head_poses", result.bad_head_poses);
     report.set("interrupted", result.interrupted);
     std::vector<DrawCounters> draws;

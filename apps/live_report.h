@@ -23,8 +23,6 @@ struct LiveSummary {
     std::optional<Distribution> draw_ms;       ///< the client, from sampling to publishing
     std::uint64_t bad_depth_pixels = 0;
     std::uint64_t unknown_object_pixels = 0;
-    std::uint64_t bad_placements = 0;  ///< movers' placements that were none, over all refreshes
-    std::uint64_t bad_layers = 0;
 };
 
 /// Pure.

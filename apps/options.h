@@ -86,7 +86,6 @@ struct Options {
     double pixels_per_degree = 67.0;  ///< --ppd of compare
 
     std::string bench_suite = "warp";              ///< --suite of bench
-    std::optional<std::uint64_t> bench_case;       ///< --case of its suite stability
     bool quick = false;                            ///< --quick of bench: at most three minutes
     std::string bench_part = "all";                ///< --part of bench: all, errors or times
     std::filesystem::path bench_merge;             ///< --merge of bench: what it has is not measured anew; may be empty

@@ -3,7 +3,6 @@
 /// infinity and for background. distance_m = -z_eye, not the length of the ray.
 
 #include <glm/glm.hpp>
-#include <string_view>
 
 #include "core/pose.h"
 #include "core/transform.h"
@@ -32,12 +31,6 @@ struct Camera {
 
     friend bool operator==(const Camera&, const Camera&) = default;
 };
-
-/// What keeps a camera from being used, or nothing: finite numbers, tangents within 1e4 (89.99 degrees) and in order
-/// left < right, down < up, at least 1e-6 apart, near plane from 1e-9 to 1e12 m, position within 1e12 m, unit quaternion
-/// (within 1e-3), both sides of the size within 1..kMaxImageSidePx. Within these limits no matrix of a camera overflows
-/// a float. Pure, any thread.
-[[nodiscard]] std::string_view problem_of(const Camera& camera);
 
 /// Rays of source pixels: (x_px, y_px, 1, depth) -> (ray_x, ray_y, -1, depth / near_m). No matrix inverse is involved,
 /// and background (depth 0) becomes a direction, so sky rotates and never translates. Pure, any thread.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/placement_check.h"
+
 namespace lw {
 namespace {
 

@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "core/camera_check.h"
 #include "core/image_io.h"
 
 namespace lw {

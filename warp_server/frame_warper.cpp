@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <string>
 
+#include "core/camera_check.h"
 #include "core/check.h"
+#include "core/placement_check.h"
 #include "warp_server/methods/registry.h"
 
 namespace lw {
@@ -55,15 +57,17 @@ void FrameWarper::prepare(Layer& layer) const {
 const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarget& target) {
     LW_CHECK(!frame.layers.empty(), "a rendered frame has at least one layer");
     counters_ = {};
+    held_ = {};
     const WarpTarget usable = usable_target(frame, target);
     bool has_picture = false;
     for (const auto& layer : frame.layers) {
         if (!problem_of(layer->camera).empty()) {
-            ++counters_.bad_layer;
+            ++held_.bad_layer;
             continue;
         }
         method_->warp(*layer, usable, has_picture ? layer_frame_ : display_frame_);
-        counters_ += method_->counters();
+        counters_.bad_depth += method_->counters().bad_depth;
+        counters_.unknown_object += method_->counters().unknown_object;
         if (has_picture) merge_nearest(layer_frame_, display_frame_);
         has_picture = true;
     }
@@ -82,7 +86,7 @@ WarpTarget FrameWarper::usable_target(const RenderedFrame& frame, const WarpTarg
         pose = *given;
         good_head_ = pose;
     } else {
-        ++counters_.bad_head_pose;
+        ++held_.bad_head_pose;
         const Pose& drawn = frame.layers.front()->camera.world_from_eye;
         pose = good_head_.value_or(sanitised(drawn).value_or(Pose{}));
     }
@@ -104,7 +108,7 @@ void FrameWarper::hold_placements(std::span<const ObjectTransform> movers) {
             usable_movers_.push_back(mover);
             continue;
         }
-        ++counters_.bad_placement;
+        ++held_.bad_placement;
         if (known) usable_movers_.push_back(good_movers_[held]);
     }
     good_movers_ = usable_movers_;

@@ -2,6 +2,7 @@
 /// One display frame: warp method, then fill, with the time each took. What the live server, replay and the command
 /// line all call.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -14,6 +15,20 @@
 #include "warp_server/warp_method.h"
 
 namespace lw {
+
+/// Input that could not be used, by kind; it is passed over, never fatal.
+struct HeldInput {
+    std::uint64_t bad_head_pose = 0;  ///< pictures whose head pose was none: the last good one held
+    std::uint64_t bad_placement = 0;  ///< movers whose placement at photon time was none: their last good one held
+    std::uint64_t bad_layer = 0;      ///< layers whose camera was none: left out
+
+    HeldInput& operator+=(const HeldInput& other) {
+        bad_head_pose += other.bad_head_pose;
+        bad_placement += other.bad_placement;
+        bad_layer += other.bad_layer;
+        return *this;
+    }
+};
 
 class FrameWarper {
 public:
@@ -33,8 +48,10 @@ public:
     /// of that is counted. The result is valid until the next call. Server thread.
     const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target);
 
-    /// What the last picture could not use, over all layers.
+    /// Pixels of the last picture that could not be used, over all layers.
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
+    /// What else of its input could not be used.
+    [[nodiscard]] const HeldInput& held() const { return held_; }
 
     [[nodiscard]] const WarpMethod& method() const { return *method_; }
     /// Share of unreached pixels of the last frame, before fill. Computed on demand from its coverage.
@@ -49,6 +66,7 @@ private:
     DisplayFrame display_frame_;
     DisplayFrame layer_frame_;  // scratch: second and further layers before they are merged
     WarpCounters counters_;
+    HeldInput held_;
     std::optional<Pose> good_head_;
     std::vector<ObjectTransform> good_movers_;    // by ascending id: the last usable placement of each
     std::vector<ObjectTransform> usable_movers_;  // of this picture

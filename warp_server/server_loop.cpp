@@ -76,6 +76,7 @@ void ServerLoop::make_picture(const RenderedFrame& frame, const PacerPlan& plan,
     const DisplayFrame& picture = parts_.warper.warp(frame, target);
     record.warp_end = parts_.clock.now();
     record.counters = parts_.warper.counters();
+    held_ += parts_.warper.held();
 
     parts_.presenter.present(picture, plan.refresh);
     record.presented = parts_.clock.now();

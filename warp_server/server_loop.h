@@ -59,6 +59,8 @@ public:
     [[nodiscard]] const std::vector<DisplayRecord>& records() const { return records_; }
     /// Refreshes whose predicted head pose was not finite: the last good one was shown again.
     [[nodiscard]] std::uint64_t bad_head_poses() const { return bad_head_poses_; }
+    /// What else could not be used, over all pictures.
+    [[nodiscard]] const HeldInput& held() const { return held_; }
     /// Rendered frames that were shown at least once.
     [[nodiscard]] std::uint64_t frames_shown() const { return frames_shown_; }
 
@@ -94,6 +96,7 @@ private:
     std::vector<ObjectTransform> movers_;
     PredictedPose last_good_head_;
     std::uint64_t bad_head_poses_ = 0;
+    HeldInput held_;
     std::uint64_t frames_shown_ = 0;
     std::uint64_t last_frame_index_ = 0;
 };

@@ -40,23 +40,10 @@ struct WarpTarget {
     std::span<const ObjectTransform> movers;  ///< placements at photon time; a missing one holds its source placement
 };
 
-/// What could not be used, by kind; it is passed over, never fatal. A method counts pixels, FrameWarper the rest.
+/// Pixels that could not be used, by kind; they are skipped, never fatal.
 struct WarpCounters {
-    std::uint64_t bad_depth = 0;       ///< pixels: NaN, infinite or outside [0, 1]
-    std::uint64_t unknown_object = 0;  ///< pixels: an id without a usable placement in the layer
-    std::uint64_t bad_head_pose = 0;   ///< pictures whose head pose was none: the last good one held
-    std::uint64_t bad_placement = 0;   ///< movers whose placement at photon time was none: their last good one held
-    std::uint64_t bad_layer = 0;       ///< layers whose camera was none: left out
-
-    WarpCounters& operator+=(const WarpCounters& other) {
-        bad_depth += other.bad_depth;
-        unknown_object += other.unknown_object;
-        bad_head_pose += other.bad_head_pose;
-        bad_placement += other.bad_placement;
-        bad_layer += other.bad_layer;
-        return *this;
-    }
-    friend bool operator==(const WarpCounters&, const WarpCounters&) = default;
+    std::uint64_t bad_depth = 0;       ///< NaN, infinite or outside [0, 1]
+    std::uint64_t unknown_object = 0;  ///< an id without a placement in the layer
 };
 
 /// A warp method with its settings and scratch memory. One thread at a time calls warp(); prepare() may run on another

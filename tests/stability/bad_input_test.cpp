@@ -191,7 +191,7 @@ TEST_P(BadInput, ABadHeadPoseHoldsTheLastGoodOne) {
     const RenderedFrame frame = frame_of(layer_of(made, CasePattern::lattice));
     FrameWarper warper = warper_of(GetParam());
     const DisplayFrame good = warper.warp(frame, {made.target, made.at_target});
-    EXPECT_EQ(warper.counters().bad_head_pose, 0U);
+    EXPECT_EQ(warper.held().bad_head_pose, 0U);
     Camera bad = made.target;
     for (const Pose& pose :
          {Pose{{kNan, 0.0, 0.0}, {1.0, 0.0, 0.0, 0.0}}, Pose{{0.0, kInfinite, 0.0}, {1.0, 0.0, 0.0, 0.0}},
@@ -199,14 +199,14 @@ TEST_P(BadInput, ABadHeadPoseHoldsTheLastGoodOne) {
           Pose{{}, {kInfinite, 1.0, 0.0, 0.0}}}) {
         bad.world_from_eye = pose;
         const DisplayFrame& shown = warper.warp(frame, {bad, made.at_target});
-        EXPECT_EQ(warper.counters().bad_head_pose, 1U);
+        EXPECT_EQ(warper.held().bad_head_pose, 1U);
         EXPECT_TRUE(shown.colour == good.colour);
     }
     // A quaternion of another length is the same turn.
     bad.world_from_eye = made.target.world_from_eye;
     bad.world_from_eye.orientation *= -3.0;
     (void)warper.warp(frame, {bad, made.at_target});
-    EXPECT_EQ(warper.counters().bad_head_pose, 0U);
+    EXPECT_EQ(warper.held().bad_head_pose, 0U);
 }
 
 TEST_P(BadInput, ABadPlacementHoldsTheLastGoodOne) {
@@ -221,7 +221,7 @@ TEST_P(BadInput, ABadPlacementHoldsTheLastGoodOne) {
     bad[2].world_from_object[1].w = 1.0;
     for (int repeat = 0; repeat < 2; ++repeat) {
         const DisplayFrame& shown = warper.warp(frame, {made.target, bad});
-        EXPECT_EQ(warper.counters().bad_placement, 2U);
+        EXPECT_EQ(warper.held().bad_placement, 2U);
         EXPECT_TRUE(shown.colour == good.colour);
     }
 }
@@ -238,7 +238,7 @@ TEST_P(BadInput, ALayerWithoutACameraIsLeftOut) {
         RenderedFrame frame = bad_frame;
         frame.layers.push_back(good_frame.layers.front());
         EXPECT_TRUE(warper.warp(frame, {made.target, made.at_target}).colour == good.colour);
-        EXPECT_EQ(warper.counters().bad_layer, 1U);
+        EXPECT_EQ(warper.held().bad_layer, 1U);
         // Alone: the picture before is shown again.
         EXPECT_TRUE(warper.warp(bad_frame, {made.target, made.at_target}).colour == good.colour);
         // Before there was any picture: black.

@@ -1,4 +1,4 @@
-#include "core/object_transform.h"
+#include "core/placement_check.h"
 
 #include <cmath>
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 
 #include "apps/bench_suites.h"
 #include "apps/stability/case_folder.h"
@@ -68,9 +69,17 @@ void describe_methods(BenchOutput& output, CaseRange range, const std::vector<Me
     output.page.add_table(rows);
 }
 
+// --case.
+std::optional<std::uint64_t> only_case(const Options& options) {
+    const auto given = options.parameters.find("case");
+    if (given == options.parameters.end()) return std::nullopt;
+    return static_cast<std::uint64_t>(given->second);
+}
+
 Status run_sweeps(const Options& options, BenchOutput& output) {
-    const std::uint64_t cases = options.bench_case ? 1 : options.quick ? kQuickCases : kCases;
-    const std::uint64_t first = options.bench_case.value_or(0);
+    const std::optional<std::uint64_t> only = only_case(options);
+    const std::uint64_t cases = only ? 1 : options.quick ? kQuickCases : kCases;
+    const std::uint64_t first = only.value_or(0);
     Result<std::unique_ptr<gl::Context>> context = gl::Context::create();
     if (context) (*context)->make_current();
     for (const CaseRange range : {CaseRange::promised, CaseRange::beyond}) {
@@ -159,10 +168,9 @@ Result<BenchOutput> bench_stability(const Options& options) {
     describe_machine(output.report, nullptr);
     const Status swept = run_sweeps(options, output);
     if (!swept) return swept.error();
-    if (options.bench_case) {
+    if (const std::optional<std::uint64_t> only = only_case(options)) {
         if (!options.out.empty()) {
-            const Result<std::string> command =
-                stability::save_case(*options.bench_case, CaseRange::promised, options.out / "case");
+            const Result<std::string> command = stability::save_case(*only, CaseRange::promised, options.out / "case");
             if (!command) return command.error();
             output.summary += *command + '\n';
         }

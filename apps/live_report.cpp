@@ -95,6 +95,8 @@ void describe_live_run(Report& report, const Options& options, const LiveResult&
     report.set("counters/bad_depth_pixels", summary.bad_depth_pixels);
     report.set("counters/unknown_object_pixels", summary.unknown_object_pixels);
     report.set("counters/bad_head_poses", result.bad_head_poses);
+    report.set("counters/bad_placements", result.bad_placements);
+    report.set("counters/bad_layers", result.bad_layers);
     report.set("interrupted", result.interrupted);
     std::vector<DrawCounters> draws;
     for (const ClientFrameRecord& frame : result.app_frames) draws.push_back(frame.counters);

@@ -295,6 +295,8 @@ void LiveSession::show_until_stopped() {
     result_.refreshes = server_loop_->records();
     result_.app_frames_shown = server_loop_->frames_shown();
     result_.bad_head_poses = server_loop_->bad_head_poses();
+    result_.bad_placements = server_loop_->held().bad_placement;
+    result_.bad_layers = server_loop_->held().bad_layer;
     result_.display_camera = settings.camera;
 }
 

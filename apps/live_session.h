@@ -29,6 +29,8 @@ struct LiveResult {
     std::vector<SourceView> source_views;  ///< of rendered frame i + 1
     std::uint64_t app_frames_shown = 0;
     std::uint64_t bad_head_poses = 0;
+    std::uint64_t bad_placements = 0;  ///< of movers, over all pictures
+    std::uint64_t bad_layers = 0;
     Scheduling scheduling = Scheduling::none;
     Camera display_camera;  ///< its pose is that of the last picture
     bool in_window = false;

@@ -20,7 +20,7 @@ void declare_bench_run(Declarer& declare) {
     declare.value("--case", "SEED", "suite stability: this case alone; with --out its frame too",
                   [&options](const std::string& text) {
                       constexpr option_values::Range kSeeds{0, 9e15, true};
-                      options.bench_case = static_cast<std::uint64_t>(option_values::number_in("--case", text, kSeeds));
+                      options.parameters["case"] = option_values::number_in("--case", text, kSeeds);
                   });
     declare.app().add_flag("--quick", options.quick, "a small part of it, at most three minutes");
     declare.path("--data", "DIR", options.data, "folder with gltf/ and head_traces/ (../shared/data)");

@@ -141,6 +141,33 @@ void declare_timing(Declarer& declare) {
     declare.number("--seconds", "S", {1e-3, 3600}, options.seconds, "length of the run (10)");
 }
 
+void declare_strips_and_load(Declarer& declare) {
+    Options& options = declare.options();
+    declare.number("--strips", "N", {1, 64, true}, options.strips,
+                   "warp each picture in N strips, each just before it is scanned out (1)");
+    declare.value("--load", "triangles=N,stall=MS", "make the client slower: more to draw, a wait in every frame",
+                  [&options](const std::string& text) {
+                      parse_named_numbers("--load", text, {"triangles", "stall"}, {0, 1e9}, true,
+                                          [&](std::string_view name, double number) {
+                                              (name == "stall" ? options.load.stall_ms : options.load.triangles) =
+                                                  number;
+                                          });
+                  });
+}
+
+void declare_inject(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--inject", "tracker=MS,app=MS,present=MS",
+                  "delays for the harness to find again, by turns in one run", [&options](const std::string& text) {
+                      parse_named_numbers("--inject", text, {"tracker", "app", "present"}, {0, 200}, true,
+                                          [&](std::string_view name, double ms) {
+                                              if (name == "tracker") options.inject.tracker_ms = ms;
+                                              if (name == "app") options.inject.app_ms = ms;
+                                              if (name == "present") options.inject.present_ms = ms;
+                                          });
+                  });
+}
+
 void declare_trace(Declarer& declare, bool required) {
     Options& options = declare.options();
     CLI::Option* trace =
@@ -195,10 +222,16 @@ void declare_live(Declarer declare) {
     declare_skip(declare);
     declare_method(declare);
     declare_timing(declare);
+    declare_strips_and_load(declare);
     declare_truth(declare);
     declare_reports(declare, true);
     declare_parameters(declare);
     declare_common(declare);
+}
+
+void declare_measure(Declarer declare) {
+    declare_live(declare);
+    declare_inject(declare);
 }
 
 void declare_replay(Declarer declare) {
@@ -299,7 +332,7 @@ struct SubcommandEntry {
 constexpr std::array kSubcommands = {
     SubcommandEntry{Subcommand::demo, "demo", "Live: a slow client and a fast warp server, in a window if there is one",
                     declare_live},
-    SubcommandEntry{Subcommand::measure, "measure", "Live with the latency harness, JSON report", declare_live},
+    SubcommandEntry{Subcommand::measure, "measure", "Live with the latency harness, JSON report", declare_measure},
     SubcommandEntry{Subcommand::replay, "replay", "A head trace on a virtual clock, every frame against the truth",
                     declare_replay},
     SubcommandEntry{Subcommand::render, "render", "The truth image at a pose, and the client's frame", declare_render},

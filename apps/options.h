@@ -27,6 +27,22 @@ enum class SourcePose : std::uint8_t {
     sampled,    ///< the newest sample at the start of drawing
 };
 
+/// --inject: delays that the latency harness has to find again, milliseconds in [0, 200]. What is empty is not
+/// injected.
+struct InjectedDelays {
+    std::optional<double> tracker_ms;  ///< head samples reach both sides so much later
+    std::optional<double> app_ms;      ///< rendered frames reach the server so much later
+    std::optional<double> present_ms;  ///< the display's panel lights up so much after its scan-out
+
+    [[nodiscard]] bool any() const { return tracker_ms || app_ms || present_ms; }
+};
+
+/// --load: what makes the app slower than it is.
+struct AppLoad {
+    double triangles = 0.0;  ///< drawn besides, at least so many per frame: the scene over and over
+    double stall_ms = 0.0;   ///< it waits so long in every frame
+};
+
 /// Everything the user said, checked for range and for known names; defaults are filled in where they do not depend on
 /// the subcommand. What is `optional` was not given.
 struct Options {
@@ -67,6 +83,9 @@ struct Options {
     double lead_ms = 5.0;                  ///< --lead: latch this long before scan-out, milliseconds in [0, 1000]
     bool lead_given = false;               ///< live learns its lead unless this is set
     std::optional<double> app_latency_ms;  ///< --app-latency, milliseconds; one app period in replay unless given
+    int strips = 1;                        ///< --strips: parts of a display frame with a pose of their own, [1, 64]
+    InjectedDelays inject;                 ///< --inject, measure only
+    AppLoad load;                          ///< --load, live only
     int truth_samples = 2;                 ///< --truth-samples: N x N samples per pixel; 1, 2 or 4
     double seconds = 10.0;                 ///< --seconds: length of the run, (0, 3600]
 

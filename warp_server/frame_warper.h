@@ -52,6 +52,9 @@ public:
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
     /// What else of its input could not be used.
     [[nodiscard]] const HeldInput& held() const { return held_; }
+    /// The picture of the last warp(), to write over it what belongs to the display and not to the scene (photon codes,
+    /// an overlay).
+    [[nodiscard]] DisplayFrame& display_frame() { return display_frame_; }
 
     [[nodiscard]] const WarpMethod& method() const { return *method_; }
     /// Share of unreached pixels of the last frame, before fill. Computed on demand from its coverage.

@@ -59,11 +59,12 @@ void declare_method(Declarer& declare) {
                       if (text != "auto") check_method("--method", text, false);
                       options.method = text;
                   });
-    declare.value("--fill", "FILL", "what is shown in holes (nearest-background)", [&options](const std::string& text) {
-        check_name("fill", "--fill", text, fill_names());
-        options.fill = text;
-        options.fill_given = true;
-    });
+    declare.value("--fill", "FILL", "what is shown in holes (pyramid; live nearest-background, which is faster)",
+                  [&options](const std::string& text) {
+                      check_name("fill", "--fill", text, fill_names());
+                      options.fill = text;
+                      options.fill_given = true;
+                  });
     declare_autotune(declare);
 }
 
@@ -496,6 +497,7 @@ Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments
     if (!command_line || command_line->text) return command_line;
     Options& options = command_line->options;
     if (options.method.empty()) options.method = default_method(options.subcommand);
+    if (options.fill.empty()) options.fill = is_live(options.subcommand) ? "nearest-background" : "pyramid";
     // A single frame tells nothing of the head's motion, and plain `warp` of its folder is to show the plain view.
     if (options.subcommand == Subcommand::render && !options.source.guard_band_rad) options.source.guard_band_rad = 0.0;
     seed_the_scene(options);

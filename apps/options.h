@@ -62,7 +62,7 @@ struct Options {
     bool near_given = false;         ///< warp takes the near plane of the layer unless this is set
 
     std::string method;                       ///< --method, a warp method with settings; the best there is by default
-    std::string fill = "nearest-background";  ///< --fill
+    std::string fill;                         ///< --fill; by default the best that is fast enough
     bool fill_given = false;                  ///< --method auto chooses the fill too unless this is set
     std::optional<double> error_cap;          ///< --error-cap of --method auto: mean FLIP, > 0
     std::optional<double> budget_ms;          ///< --budget-ms of --method auto, > 0

@@ -59,20 +59,20 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
     counters_ = {};
     held_ = {};
     const WarpTarget usable = usable_target(frame, target);
-    bool has_picture = false;
+    const Camera* first_camera = nullptr;
     for (const auto& layer : frame.layers) {
         if (!problem_of(layer->camera).empty()) {
             ++held_.bad_layer;
             continue;
         }
-        method_->warp(*layer, usable, has_picture ? layer_frame_ : display_frame_);
+        method_->warp(*layer, usable, first_camera != nullptr ? layer_frame_ : display_frame_);
         counters_.bad_depth += method_->counters().bad_depth;
         counters_.unknown_object += method_->counters().unknown_object;
-        if (has_picture) merge_nearest(layer_frame_, display_frame_);
-        has_picture = true;
+        if (first_camera != nullptr) merge_nearest(layer_frame_, display_frame_);
+        if (first_camera == nullptr) first_camera = &layer->camera;
     }
-    if (has_picture) {
-        fill_->apply(display_frame_);
+    if (first_camera != nullptr) {
+        fill_->apply(display_frame_, fill_guide(*first_camera, usable.camera));
     } else if (display_frame_.colour.size_px() != usable.camera.size_px) {
         show_nothing(usable.camera.size_px, display_frame_);
     }

@@ -166,7 +166,7 @@ void fill(benchmark::State& state, const std::string& name) {
     const Image<Coverage> coverage = frames[0].coverage;
     measure(state, [&](std::size_t i) {
         std::memcpy(frames[i].coverage.pixels().data(), coverage.pixels().data(), coverage.size_bytes());
-        (*made)->apply(frames[i]);
+        (*made)->apply(frames[i], fill_guide(layers()[0].camera, camera));
     });
 }
 
@@ -184,7 +184,9 @@ void register_all() {
         add("two_threads_over_one/" + name, [name](benchmark::State& state) { two_threads(state, name); });
     }
     add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });
-    add("fill/nearest-background", [](benchmark::State& state) { fill(state, "nearest-background"); });
+    for (const std::string name : {"nearest-background", "pyramid"}) {
+        add("fill/" + name, [name](benchmark::State& state) { fill(state, name); });
+    }
 }
 
 }  // namespace

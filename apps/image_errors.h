@@ -11,10 +11,10 @@ namespace lw {
 struct ImageErrors {
     double flip = 0.0;
     double ssim = 1.0;
-    std::optional<double> psnr_db;  ///< nothing for a picture equal to the truth
-    double hole_fraction = 0.0;     ///< unreached pixels before fill, counted by the warp
-    AttributedError attribution;    ///< of FLIP, whose sum it is; zero where causes are not known
-    std::optional<double> flicker;  ///< against the display frame before; nothing for the first
+    std::optional<double> psnr_db;    ///< nothing for a picture equal to the truth
+    double hole_fraction = 0.0;       ///< unreached pixels before fill, counted by the warp
+    AttributedError attribution{};    ///< of FLIP, whose sum it is; zero where causes are not known
+    std::optional<double> flicker{};  ///< against the display frame before; nothing for the first
 };
 
 /// FLIP, SSIM and PSNR of `shown` against `truth` (equal sizes); the hole fraction stays 0, flicker empty. Pure, any

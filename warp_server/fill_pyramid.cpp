@@ -32,6 +32,7 @@ public:
         }
         mark_tiles();
         collect_tiles(guide);
+        collect_tile_runs();
         const FillPixels pixels{frame.colour.pixels().data(), frame.depth.pixels().data(), frame.coverage.size_px()};
         pull(pixels);
         push(pixels);
@@ -42,7 +43,8 @@ public:
     }
 
 private:
-    enum class Tile : std::uint8_t { unused, beside, with_holes };
+    static constexpr std::uint8_t kBeside = 1;
+    static constexpr std::uint8_t kWithHoles = 2;
 
     static void show_nothing(DisplayFrame& frame) {
         std::fill(frame.colour.pixels().begin(), frame.colour.pixels().end(), kNothingColour);
@@ -56,6 +58,7 @@ private:
         size_px_ = size_px;
         const glm::ivec2 tiles = (size_px + (kFillTile_px - 1)) / kFillTile_px;
         tiles_.resize(tiles);
+        towards_.resize(tiles);
         levels_.resize(kFillTileLevel);
         for (glm::ivec2 size = tiles;; size = (size + 1) / 2) {
             levels_.push_back({size, {}});
@@ -98,16 +101,17 @@ private:
     // The background of a run's end may itself be a hole that took its limit already (a row without reached pixels).
     static float limit_at(float depth) { return depth >= 0.0F ? depth : -1.0F - depth; }
 
+    // Tiles with holes and those beside them.
     void mark_tiles() {
-        std::fill(tiles_.pixels().begin(), tiles_.pixels().end(), Tile::unused);
+        std::fill(tiles_.pixels().begin(), tiles_.pixels().end(), std::uint8_t{0});
         for (const HoleRun& run : ends_.runs()) {
             const auto row = tiles_.row(run.y / kFillTile_px);
             std::fill(row.begin() + run.begin / kFillTile_px, row.begin() + (run.end - 1) / kFillTile_px + 1,
-                      Tile::with_holes);
+                      kWithHoles);
         }
         for (int y = 0; y < tiles_.height(); ++y) {
             for (int x = 0; x < tiles_.width(); ++x) {
-                if (tiles_.at(x, y) == Tile::with_holes) mark_beside({x, y});
+                if ((tiles_.at(x, y) & kWithHoles) != 0) mark_beside({x, y});
             }
         }
     }
@@ -116,26 +120,38 @@ private:
         const glm::ivec2 first = glm::max(tile - 1, glm::ivec2{0});
         const glm::ivec2 last = glm::min(tile + 1, tiles_.size_px() - 1);
         for (int y = first.y; y <= last.y; ++y) {
-            for (int x = first.x; x <= last.x; ++x) {
-                if (tiles_.at(x, y) == Tile::unused) tiles_.at(x, y) = Tile::beside;
-            }
+            for (int x = first.x; x <= last.x; ++x) tiles_.at(x, y) |= kBeside;
         }
     }
 
     void collect_tiles(const FillGuide& guide) {
-        used_.clear();
+        spans_.clear();
         with_holes_.clear();
-        FillLevel& level = levels_[kFillTileLevel];
+        std::vector<FillCell>& cells = levels_[kFillTileLevel].cells;
+        std::fill(cells.begin(), cells.end(), FillCell{0.0F, 0.0F, 0.0F, kUnknownCell});
         for (int y = 0; y < tiles_.height(); ++y) {
             for (int x = 0; x < tiles_.width(); ++x) {
-                const Tile tile = tiles_.at(x, y);
-                if (tile == Tile::unused) {
-                    level.cells[static_cast<std::size_t>(y * tiles_.width() + x)] = {0.0F, 0.0F, 0.0F, kUnknownCell};
-                    continue;
-                }
+                const std::uint8_t tile = tiles_.at(x, y);
+                if (tile == 0) continue;
+                if (spans_.empty() || spans_.back().y != y || spans_.back().end != x) spans_.push_back({y, x, x});
+                spans_.back().end = x + 1;
+                if ((tile & kWithHoles) == 0) continue;
                 const glm::dvec2 centre_px = (glm::dvec2{x, y} + 0.5) * static_cast<double>(kFillTile_px);
-                used_.push_back({{x, y}, kTowards_cells * direction(guide.background_px_m(centre_px))});
-                if (tile == Tile::with_holes) with_holes_.push_back(used_.back());
+                towards_.at(x, y) = kTowards_cells * direction(guide.background_px_m(centre_px));
+                with_holes_.push_back({{x, y}, towards_.at(x, y)});
+            }
+        }
+    }
+
+    // The runs, cut where tiles end.
+    void collect_tile_runs() {
+        tile_runs_.clear();
+        for (const HoleRun& run : ends_.runs()) {
+            for (int x = run.begin; x < run.end;) {
+                const int tile = x / kFillTile_px;
+                const int end = std::min(run.end, (tile + 1) * kFillTile_px);
+                tile_runs_.push_back({run.y, x, end, towards_.at(tile, run.y / kFillTile_px)});
+                x = end;
             }
         }
     }
@@ -146,7 +162,7 @@ private:
     }
 
     void pull(const FillPixels& pixels) {
-        pull_tiles(pixels, used_, levels_);
+        pull_tiles(pixels, spans_, levels_);
         for (std::size_t i = kFillTileLevel + 1; i < levels_.size(); ++i) pull_level(levels_[i - 1], levels_[i]);
     }
 
@@ -154,15 +170,17 @@ private:
         for (std::size_t i = levels_.size() - 1; i > kFillTileLevel; --i) push_level(levels_[i], levels_[i - 1]);
         push_tiles(levels_[3], with_holes_, 2, levels_[2]);
         push_tiles(levels_[2], with_holes_, 4, levels_[1]);
-        push_pixels(levels_[1], with_holes_, pixels);
+        push_pixels(levels_[1], tile_runs_, pixels);
     }
 
     HoleEnds ends_;
     glm::ivec2 size_px_{0};
     std::vector<FillLevel> levels_;  // the first is the picture and stays empty
-    Image<Tile> tiles_;
-    std::vector<FillTile> used_;  // those with holes and those beside them
+    Image<std::uint8_t> tiles_;      // kBeside, kWithHoles or both; 0 for those that no hole is near
+    Image<glm::vec2> towards_;       // of tiles with holes: as FillTile
+    std::vector<FillTileSpan> spans_;
     std::vector<FillTile> with_holes_;
+    std::vector<FillTileRun> tile_runs_;
 };
 
 }  // namespace

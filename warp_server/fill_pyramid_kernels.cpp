@@ -11,12 +11,11 @@
 // After foreach_target.h, as it asks.
 #include <hwy/highway.h>
 
-// Cells are four floats. Plain loops over them, which compilers turn into one instruction of the target's, so that no
-// target needs four lanes.
-
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
 
 // Depths within these factors count as one surface. Wider inside a cell, whose pixels may lie on a slanted ground.
 constexpr float kAllowed = 1.1F;
@@ -24,105 +23,8 @@ constexpr float kSameSurface = 1.3F;
 // Weight of a cell that the limit forbids: it shows only where there is nothing else.
 constexpr float kForbiddenWeight = 1e-4F;
 
-struct V4 {
-    float v[4] = {};
-};
-
-HWY_INLINE void add_weighted(V4& sum, const V4& value, float weight) {
-    for (int i = 0; i < 4; ++i) sum.v[i] += value.v[i] * weight;
-}
-
-HWY_INLINE V4 values_of(const FillCell& cell) { return {{cell.red, cell.green, cell.blue, cell.depth}}; }
-HWY_INLINE FillCell cell_from(const V4& value) { return {value.v[0], value.v[1], value.v[2], value.v[3]}; }
-
 constexpr float limit_of(float stored) { return -1.0F - stored; }
-
 HWY_INLINE bool is_seen(float depth) { return depth >= 0.0F; }
-HWY_INLINE bool is_unknown(float depth) { return depth <= kUnknownCell; }
-
-// Which of four children a cell is made of.
-struct Choice {
-    std::array<float, 4> weights;
-    float hole_depth;  // where all weights are 0: what the cell stores
-};
-
-HWY_INLINE Choice choose(const std::array<float, 4>& depths) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    float limit = -1.0F;
-    for (const float depth : depths) {
-        if (!is_seen(depth) && !is_unknown(depth)) limit = std::max(limit, limit_of(depth));
-    }
-    const bool has_hole = limit >= 0.0F;
-    const float allowed = has_hole ? limit * kAllowed : kInfinity;
-    float farthest = kInfinity;
-    for (const float depth : depths) {
-        if (is_seen(depth) && depth <= allowed) farthest = std::min(farthest, depth);
-    }
-    Choice choice{{}, has_hole ? hole_with_limit(limit) : kUnknownCell};
-    const float same = farthest * kSameSurface;
-    float count = 0.0F;
-    for (std::size_t i = 0; i < 4; ++i) {
-        const bool counts = is_seen(depths[i]) && depths[i] <= std::min(allowed, same);
-        choice.weights[i] = counts ? 1.0F : 0.0F;
-        count += choice.weights[i];
-    }
-    if (count > 0.0F) {
-        for (float& weight : choice.weights) weight /= count;
-    }
-    return choice;
-}
-
-HWY_INLINE bool is_empty(const Choice& choice) {
-    return choice.weights[0] + choice.weights[1] + choice.weights[2] + choice.weights[3] == 0.0F;
-}
-
-HWY_INLINE void pull_cell(const FillCell* const children[4], FillCell& cell) {
-    const Choice choice = choose({children[0]->depth, children[1]->depth, children[2]->depth, children[3]->depth});
-    if (is_empty(choice)) {
-        cell = {0.0F, 0.0F, 0.0F, choice.hole_depth};
-        return;
-    }
-    V4 sum;
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (choice.weights[i] != 0.0F) add_weighted(sum, values_of(*children[i]), choice.weights[i]);
-    }
-    cell = cell_from(sum);
-}
-
-// Squared colour and depth of a pixel as one vector.
-HWY_INLINE V4 squared(const Rgba8& colour, float depth) {
-    const auto square = [](std::uint8_t value) {
-        const auto f = static_cast<float>(value);
-        return f * f;
-    };
-    return {{square(colour.r), square(colour.g), square(colour.b), depth}};
-}
-
-HWY_INLINE void pull_pixel_cell(const FillPixels& pixels, int x, int y, FillCell& cell) {
-    std::array<float, 4> depths{};
-    std::array<std::size_t, 4> places{};
-    for (int i = 0; i < 4; ++i) {
-        const int px = x + (i & 1);
-        const int py = y + (i >> 1);
-        const bool inside = px < pixels.size_px.x && py < pixels.size_px.y;
-        const auto place = static_cast<std::size_t>(i);
-        places[place] = inside ? static_cast<std::size_t>(py) * static_cast<std::size_t>(pixels.size_px.x) +
-                                     static_cast<std::size_t>(px)
-                               : 0;
-        depths[place] = inside ? pixels.depth[places[place]] : kUnknownCell;
-    }
-    const Choice choice = choose(depths);
-    if (is_empty(choice)) {
-        cell = {0.0F, 0.0F, 0.0F, choice.hole_depth};
-        return;
-    }
-    V4 sum;
-    for (std::size_t i = 0; i < 4; ++i) {
-        if (choice.weights[i] == 0.0F) continue;
-        add_weighted(sum, squared(pixels.colour[places[i]], depths[i]), choice.weights[i]);
-    }
-    cell = cell_from(sum);
-}
 
 HWY_INLINE FillCell& cell_at(FillLevel& level, int x, int y) {
     return level
@@ -134,37 +36,221 @@ HWY_INLINE const FillCell& cell_at(const FillLevel& level, int x, int y) {
         .cells[static_cast<std::size_t>(y) * static_cast<std::size_t>(level.size.x) + static_cast<std::size_t>(x)];
 }
 
-// Cell (x, y) of `coarser`; children outside of the picture are unknown.
-void pull_one(const FillLevel& finer, int x, int y, FillLevel& coarser) {
+using D1 = hn::CappedTag<float, 1>;
+
+// One cell per lane.
+template <class D>
+struct Cells {
+    hn::VFromD<D> red;
+    hn::VFromD<D> green;
+    hn::VFromD<D> blue;
+    hn::VFromD<D> depth;
+};
+
+// The cells that these children make: the mean of the farthest of those that the limits of the holes among them allow.
+// No fused multiplication, so that every instruction set rounds alike.
+template <class D>
+HWY_INLINE Cells<D> merged(D d, const Cells<D> (&children)[4]) {
+    using V = hn::VFromD<D>;
+    const V zero = hn::Zero(d);
+    const V one = hn::Set(d, 1.0F);
+    const V infinity = hn::Set(d, std::numeric_limits<float>::infinity());
+    V limit = hn::Set(d, -1.0F);
+    for (const Cells<D>& child : children) {
+        const auto is_hole = hn::And(hn::Lt(child.depth, zero), hn::Gt(child.depth, hn::Set(d, kUnknownCell)));
+        limit = hn::Max(limit, hn::IfThenElse(is_hole, hn::Sub(hn::Set(d, -1.0F), child.depth), limit));
+    }
+    const auto has_hole = hn::Ge(limit, zero);
+    const V allowed = hn::IfThenElse(has_hole, hn::Mul(limit, hn::Set(d, kAllowed)), infinity);
+    V farthest = infinity;
+    for (const Cells<D>& child : children) {
+        const auto counts = hn::And(hn::Ge(child.depth, zero), hn::Le(child.depth, allowed));
+        farthest = hn::Min(farthest, hn::IfThenElse(counts, child.depth, infinity));
+    }
+    const V nearest = hn::Min(allowed, hn::Mul(farthest, hn::Set(d, kSameSurface)));
+    V count = zero;
+    Cells<D> sum{zero, zero, zero, zero};
+    for (const Cells<D>& child : children) {
+        const auto counts = hn::And(hn::Ge(child.depth, zero), hn::Le(child.depth, nearest));
+        count = hn::Add(count, hn::IfThenElseZero(counts, one));
+        sum.red = hn::Add(sum.red, hn::IfThenElseZero(counts, child.red));
+        sum.green = hn::Add(sum.green, hn::IfThenElseZero(counts, child.green));
+        sum.blue = hn::Add(sum.blue, hn::IfThenElseZero(counts, child.blue));
+        sum.depth = hn::Add(sum.depth, hn::IfThenElseZero(counts, child.depth));
+    }
+    const auto is_known = hn::Gt(count, zero);
+    const V scale = hn::Div(one, hn::Max(count, one));
+    const V nothing = hn::IfThenElse(has_hole, hn::Sub(hn::Set(d, -1.0F), limit), hn::Set(d, kUnknownCell));
+    return {hn::Mul(sum.red, scale), hn::Mul(sum.green, scale), hn::Mul(sum.blue, scale),
+            hn::IfThenElse(is_known, hn::Mul(sum.depth, scale), nothing)};
+}
+
+template <class D>
+HWY_INLINE Cells<D> loaded(D d, const FillCell* cells) {
+    Cells<D> loaded;
+    hn::LoadInterleaved4(d, &cells->red, loaded.red, loaded.green, loaded.blue, loaded.depth);
+    return loaded;
+}
+
+template <class D>
+HWY_INLINE void store(D d, const Cells<D>& cells, FillCell* to) {
+    hn::StoreInterleaved4(cells.red, cells.green, cells.blue, cells.depth, d, &to->red);
+}
+
+// Of the lanes of two vectors in a row those of even or odd place. Single lanes have no such instruction.
+template <class D, class V>
+HWY_INLINE V even_of(D d, V high, V low) {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (hn::MaxLanes(D{}) > 1) return hn::ConcatEven(d, high, low);
+#endif
+    (void)d;
+    (void)high;
+    return low;
+}
+
+template <class D, class V>
+HWY_INLINE V odd_of(D d, V high, V low) {
+#if HWY_TARGET != HWY_SCALAR
+    if constexpr (hn::MaxLanes(D{}) > 1) return hn::ConcatOdd(d, high, low);
+#endif
+    (void)d;
+    (void)low;
+    return high;
+}
+
+// Of twice as many cells in a row those of even and of odd place.
+template <class D>
+HWY_INLINE void load_pairs(D d, const FillCell* cells, Cells<D>& even, Cells<D>& odd) {
+    const Cells<D> low = loaded(d, cells);
+    const Cells<D> high = loaded(d, cells + hn::Lanes(d));
+    even = {even_of(d, high.red, low.red), even_of(d, high.green, low.green), even_of(d, high.blue, low.blue),
+            even_of(d, high.depth, low.depth)};
+    odd = {odd_of(d, high.red, low.red), odd_of(d, high.green, low.green), odd_of(d, high.blue, low.blue),
+           odd_of(d, high.depth, low.depth)};
+}
+
+template <class D>
+HWY_INLINE Cells<D> squared(D d, hn::VFromD<hn::RebindToUnsigned<D>> colour, hn::VFromD<D> depth) {
+    const hn::RebindToUnsigned<D> du;
+    const hn::RebindToSigned<D> di;
+    const auto square = [&](auto bits) {
+        const auto value = hn::ConvertTo(d, hn::BitCast(di, hn::And(bits, hn::Set(du, 255U))));
+        return hn::Mul(value, value);
+    };
+    return {square(colour), square(hn::ShiftRight<8>(colour)), square(hn::ShiftRight<16>(colour)), depth};
+}
+
+template <class D>
+HWY_INLINE void load_pairs(D d, const Rgba8* colour, const float* depth, Cells<D>& even, Cells<D>& odd) {
+    const hn::RebindToUnsigned<D> du;
+    hn::VFromD<D> even_depth;
+    hn::VFromD<D> odd_depth;
+    hn::VFromD<hn::RebindToUnsigned<D>> even_colour;
+    hn::VFromD<hn::RebindToUnsigned<D>> odd_colour;
+    hn::LoadInterleaved2(d, depth, even_depth, odd_depth);
+    hn::LoadInterleaved2(du, reinterpret_cast<const std::uint32_t*>(colour), even_colour, odd_colour);
+    even = squared(d, even_colour, even_depth);
+    odd = squared(d, odd_colour, odd_depth);
+}
+
+// Calls some(d, x) with ever narrower vectors until [begin, end) is covered.
+template <class Some>
+HWY_INLINE void for_some(int begin, int end, Some some) {
+    const hn::ScalableTag<float> d;
+    const hn::CappedTag<float, 4> d4;
+    const D1 d1;
+    int x = begin;
+    for (const int lanes = static_cast<int>(hn::Lanes(d)); x + lanes <= end; x += lanes) some(d, x);
+    for (const int lanes = static_cast<int>(hn::Lanes(d4)); x + lanes <= end; x += lanes) some(d4, x);
+    for (; x < end; ++x) some(d1, x);
+}
+
+// Cells [begin, end) of row y of `coarser`; their children all lie in `finer`.
+void pull_inner(const FillLevel& finer, int y, int begin, int end, FillLevel& coarser) {
+    for_some(begin, end, [&](auto d, int x) {
+        Cells<decltype(d)> children[4];
+        load_pairs(d, &cell_at(finer, 2 * x, 2 * y), children[0], children[1]);
+        load_pairs(d, &cell_at(finer, 2 * x, 2 * y + 1), children[2], children[3]);
+        store(d, merged(d, children), &cell_at(coarser, x, y));
+    });
+}
+
+// Cell (x, y) of `coarser`, some of whose children lie outside of `finer`.
+void pull_at_border(const FillLevel& finer, int x, int y, FillLevel& coarser) {
     static constexpr FillCell kOutside{0.0F, 0.0F, 0.0F, kUnknownCell};
-    const FillCell* children[4];
+    const D1 d;
+    Cells<D1> children[4];
     for (int i = 0; i < 4; ++i) {
         const int cx = 2 * x + (i & 1);
         const int cy = 2 * y + (i >> 1);
-        children[i] = cx < finer.size.x && cy < finer.size.y ? &cell_at(finer, cx, cy) : &kOutside;
+        children[i] = loaded(d, cx < finer.size.x && cy < finer.size.y ? &cell_at(finer, cx, cy) : &kOutside);
     }
-    pull_cell(children, cell_at(coarser, x, y));
-}
-
-void pull_tiles_here(const FillPixels& pixels, std::span<const FillTile> tiles, std::span<FillLevel> levels) {
-    for (const FillTile& tile : tiles) {
-        const glm::ivec2 first = tile.index * (kFillTile_px / 2);
-        for (int y = first.y; y < first.y + 4; ++y) {
-            for (int x = first.x; x < first.x + 4; ++x) {
-                pull_pixel_cell(pixels, 2 * x, 2 * y, cell_at(levels[1], x, y));
-            }
-        }
-        for (int y = 2 * tile.index.y; y < 2 * tile.index.y + 2; ++y) {
-            for (int x = 2 * tile.index.x; x < 2 * tile.index.x + 2; ++x) pull_one(levels[1], x, y, levels[2]);
-        }
-        pull_one(levels[2], tile.index.x, tile.index.y, levels[3]);
-    }
+    store(d, merged(d, children), &cell_at(coarser, x, y));
 }
 
 void pull_level_here(const FillLevel& finer, FillLevel& coarser) {
+    const glm::ivec2 inner = finer.size / 2;
     for (int y = 0; y < coarser.size.y; ++y) {
-        for (int x = 0; x < coarser.size.x; ++x) pull_one(finer, x, y, coarser);
+        const int inner_end = y < inner.y ? inner.x : 0;
+        pull_inner(finer, y, 0, inner_end, coarser);
+        for (int x = inner_end; x < coarser.size.x; ++x) pull_at_border(finer, x, y, coarser);
     }
+}
+
+// Cell (x, y) of level 1, some of whose pixels lie outside of the picture.
+void pull_pixels_at_border(const FillPixels& pixels, int x, int y, FillLevel& level1) {
+    const D1 d;
+    const hn::RebindToUnsigned<D1> du;
+    Cells<D1> children[4];
+    for (int i = 0; i < 4; ++i) {
+        const int px = 2 * x + (i & 1);
+        const int py = 2 * y + (i >> 1);
+        children[i] = {hn::Zero(d), hn::Zero(d), hn::Zero(d), hn::Set(d, kUnknownCell)};
+        if (px >= pixels.size_px.x || py >= pixels.size_px.y) continue;
+        const auto place =
+            static_cast<std::size_t>(py) * static_cast<std::size_t>(pixels.size_px.x) + static_cast<std::size_t>(px);
+        const auto* colour = reinterpret_cast<const std::uint32_t*>(pixels.colour + place);
+        children[i] = squared(d, hn::LoadU(du, colour), hn::LoadU(d, pixels.depth + place));
+    }
+    store(d, merged(d, children), &cell_at(level1, x, y));
+}
+
+// Cells [begin, end) of row y of level 1.
+void pull_pixels(const FillPixels& pixels, int y, int begin, int end, FillLevel& level1) {
+    const int inner_end = 2 * y + 1 < pixels.size_px.y ? std::clamp(pixels.size_px.x / 2, begin, end) : begin;
+    const auto width = static_cast<std::size_t>(pixels.size_px.x);
+    const std::size_t above = static_cast<std::size_t>(2 * y) * width;
+    for_some(begin, inner_end, [&](auto d, int x) {
+        Cells<decltype(d)> children[4];
+        const std::size_t first = above + 2 * static_cast<std::size_t>(x);
+        load_pairs(d, pixels.colour + first, pixels.depth + first, children[0], children[1]);
+        load_pairs(d, pixels.colour + first + width, pixels.depth + first + width, children[2], children[3]);
+        store(d, merged(d, children), &cell_at(level1, x, y));
+    });
+    for (int x = inner_end; x < end; ++x) pull_pixels_at_border(pixels, x, y, level1);
+}
+
+void pull_tiles_here(const FillPixels& pixels, std::span<const FillTileSpan> tiles, std::span<FillLevel> levels) {
+    for (const FillTileSpan& span : tiles) {
+        for (int y = 4 * span.y; y < 4 * span.y + 4; ++y) {
+            pull_pixels(pixels, y, 4 * span.begin, 4 * span.end, levels[1]);
+        }
+        for (int y = 2 * span.y; y < 2 * span.y + 2; ++y) {
+            pull_inner(levels[1], y, 2 * span.begin, 2 * span.end, levels[2]);
+        }
+        pull_inner(levels[2], span.y, span.begin, span.end, levels[3]);
+    }
+}
+
+// Four floats: plain loops over them, which compilers turn into one instruction of the target's, so that no target
+// needs four lanes.
+struct Sum {
+    float parts[4] = {};
+};
+
+HWY_INLINE void add_weighted(Sum& sum, const FillCell& cell, float weight) {
+    const float values[4] = {cell.red, cell.green, cell.blue, cell.depth};
+    for (int i = 0; i < 4; ++i) sum.parts[i] += values[i] * weight;
 }
 
 // Where along one axis the children of even or odd place read the coarser level.
@@ -176,8 +262,8 @@ struct Tap {
 HWY_INLINE Tap tap_of(int parity, float towards) {
     // The child's centre lies a quarter cell beside its parent's.
     const float place = (parity == 0 ? -0.25F : 0.25F) + towards;
-    const float first = std::floor(place);
-    return {static_cast<int>(first), place - first};
+    const int first = place < -1.0F ? -2 : place < 0.0F ? -1 : place < 1.0F ? 0 : 1;
+    return {first, place - static_cast<float>(first)};
 }
 
 struct Taps {
@@ -190,7 +276,7 @@ HWY_INLINE Taps taps_of(const glm::vec2& towards) {
 }
 
 // The value of the hole at (x, y) of the finer level with this limit.
-HWY_INLINE V4 push_value(const FillLevel& coarser, const Taps& taps, int x, int y, float limit) {
+HWY_INLINE Sum push_value(const FillLevel& coarser, const Taps& taps, int x, int y, float limit) {
     const Tap tx = taps.x[static_cast<std::size_t>(x & 1)];
     const Tap ty = taps.y[static_cast<std::size_t>(y & 1)];
     const int x0 = std::clamp((x >> 1) + tx.offset, 0, coarser.size.x - 1);
@@ -202,22 +288,23 @@ HWY_INLINE V4 push_value(const FillLevel& coarser, const Taps& taps, int x, int 
     const float bilinear[4] = {(1.0F - tx.second) * (1.0F - ty.second), tx.second * (1.0F - ty.second),
                                (1.0F - tx.second) * ty.second, tx.second * ty.second};
     const float allowed = limit * kAllowed;
-    V4 sum;
+    Sum sum;
     float weights = 0.0F;
     for (int i = 0; i < 4; ++i) {
         const float weight = (bilinear[i] + 1e-6F) * (cells[i]->depth <= allowed ? 1.0F : kForbiddenWeight);
-        add_weighted(sum, values_of(*cells[i]), weight);
+        add_weighted(sum, *cells[i], weight);
         weights += weight;
     }
     const float scale = 1.0F / weights;
-    for (float& part : sum.v) part *= scale;
+    for (float& part : sum.parts) part *= scale;
     return sum;
 }
 
 HWY_INLINE void push_one(const FillLevel& coarser, const Taps& taps, int x, int y, FillLevel& finer) {
     FillCell& cell = cell_at(finer, x, y);
     if (is_seen(cell.depth)) return;
-    cell = cell_from(push_value(coarser, taps, x, y, limit_of(cell.depth)));
+    const Sum value = push_value(coarser, taps, x, y, limit_of(cell.depth));
+    cell = {value.parts[0], value.parts[1], value.parts[2], value.parts[3]};
 }
 
 void push_level_here(const FillLevel& coarser, FillLevel& finer) {
@@ -237,28 +324,25 @@ void push_tiles_here(const FillLevel& coarser, std::span<const FillTile> tiles, 
     }
 }
 
-HWY_INLINE void store_pixel(const V4& value, Rgba8& colour, float& depth) {
-    const auto root = [](float squared) { return static_cast<std::uint8_t>(std::sqrt(squared) + 0.5F); };
+// Mixes the pyramid's value with the colour to continue.
+HWY_INLINE void store_pixel(const Sum& value, Rgba8& colour, float& depth) {
     const float copied = static_cast<float>(colour.a) * (1.0F / 255.0F);
-    V4 mixed = squared(colour, depth);
-    for (int i = 0; i < 3; ++i) mixed.v[i] = value.v[i] + copied * (mixed.v[i] - value.v[i]);
-    colour = {root(mixed.v[0]), root(mixed.v[1]), root(mixed.v[2]), 255};
-    depth = value.v[3];
+    const auto mixed = [&](float averaged, std::uint8_t copy) {
+        const auto copy_f = static_cast<float>(copy);
+        return static_cast<std::uint8_t>(std::sqrt(averaged + copied * (copy_f * copy_f - averaged)) + 0.5F);
+    };
+    colour = {mixed(value.parts[0], colour.r), mixed(value.parts[1], colour.g), mixed(value.parts[2], colour.b), 255};
+    depth = value.parts[3];
 }
 
-void push_pixels_here(const FillLevel& level1, std::span<const FillTile> tiles, const FillPixels& pixels) {
-    for (const FillTile& tile : tiles) {
-        const Taps taps = taps_of(tile.towards);
-        const glm::ivec2 first = tile.index * kFillTile_px;
-        const glm::ivec2 end = glm::min(first + kFillTile_px, pixels.size_px);
-        for (int y = first.y; y < end.y; ++y) {
-            for (int x = first.x; x < end.x; ++x) {
-                const std::size_t i = static_cast<std::size_t>(y) * static_cast<std::size_t>(pixels.size_px.x) +
-                                      static_cast<std::size_t>(x);
-                if (is_seen(pixels.depth[i])) continue;
-                const V4 value = push_value(level1, taps, x, y, limit_of(pixels.depth[i]));
-                store_pixel(value, pixels.colour[i], pixels.depth[i]);
-            }
+void push_pixels_here(const FillLevel& level1, std::span<const FillTileRun> runs, const FillPixels& pixels) {
+    for (const FillTileRun& run : runs) {
+        const Taps taps = taps_of(run.towards);
+        const std::size_t row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(pixels.size_px.x);
+        for (int x = run.begin; x < run.end; ++x) {
+            const std::size_t i = row + static_cast<std::size_t>(x);
+            const Sum value = push_value(level1, taps, x, run.y, limit_of(pixels.depth[i]));
+            store_pixel(value, pixels.colour[i], pixels.depth[i]);
         }
     }
 }
@@ -276,7 +360,7 @@ HWY_EXPORT(push_level_here);
 HWY_EXPORT(push_tiles_here);
 HWY_EXPORT(push_pixels_here);
 
-void pull_tiles(const FillPixels& pixels, std::span<const FillTile> tiles, std::span<FillLevel> levels) {
+void pull_tiles(const FillPixels& pixels, std::span<const FillTileSpan> tiles, std::span<FillLevel> levels) {
     HWY_DYNAMIC_DISPATCH(pull_tiles_here)(pixels, tiles, levels);
 }
 
@@ -288,8 +372,8 @@ void push_tiles(const FillLevel& coarser, std::span<const FillTile> tiles, int s
     HWY_DYNAMIC_DISPATCH(push_tiles_here)(coarser, tiles, side, finer);
 }
 
-void push_pixels(const FillLevel& level1, std::span<const FillTile> tiles, const FillPixels& pixels) {
-    HWY_DYNAMIC_DISPATCH(push_pixels_here)(level1, tiles, pixels);
+void push_pixels(const FillLevel& level1, std::span<const FillTileRun> runs, const FillPixels& pixels) {
+    HWY_DYNAMIC_DISPATCH(push_pixels_here)(level1, runs, pixels);
 }
 
 }  // namespace lw

@@ -1,5 +1,5 @@
 #pragma once
-/// The inner loops of the pyramid fill, on the widest vectors the machine has.
+/// The inner loops of the pyramid fill, on the widest vectors the machine has; every one gives the same bytes.
 
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -42,14 +42,30 @@ struct FillPixels {
 inline constexpr int kFillTileLevel = 3;
 inline constexpr int kFillTile_px = 1 << kFillTileLevel;
 
+/// Neighbouring tiles [begin, end) of one row of tiles.
+struct FillTileSpan {
+    int y = 0;
+    int begin = 0;
+    int end = 0;
+};
+
+/// A tile with holes.
 struct FillTile {
     glm::ivec2 index{0};      ///< the cell of level kFillTileLevel
     glm::vec2 towards{0.0F};  ///< the background's side, in cells of the level that is asked, each part in [-1, 1]
 };
 
+/// Hole pixels [begin, end) of one row, all of one tile.
+struct FillTileRun {
+    int y = 0;
+    int begin = 0;
+    int end = 0;
+    glm::vec2 towards{0.0F};  ///< as the tile's
+};
+
 /// Levels 1 to kFillTileLevel of these tiles, from the pixels. `levels[0]` is not used; levels 1 and 2 hold whole
 /// tiles.
-void pull_tiles(const FillPixels& pixels, std::span<const FillTile> tiles, std::span<FillLevel> levels);
+void pull_tiles(const FillPixels& pixels, std::span<const FillTileSpan> tiles, std::span<FillLevel> levels);
 
 /// All of a coarser level.
 void pull_level(const FillLevel& finer, FillLevel& coarser);
@@ -60,7 +76,7 @@ void push_level(const FillLevel& coarser, FillLevel& finer);
 /// Holes of `finer` in these tiles, whose sides hold `side` cells (1, 2 or 4).
 void push_tiles(const FillLevel& coarser, std::span<const FillTile> tiles, int side, FillLevel& finer);
 
-/// Hole pixels of these tiles from level 1.
-void push_pixels(const FillLevel& level1, std::span<const FillTile> tiles, const FillPixels& pixels);
+/// Hole pixels from level 1.
+void push_pixels(const FillLevel& level1, std::span<const FillTileRun> runs, const FillPixels& pixels);
 
 }  // namespace lw

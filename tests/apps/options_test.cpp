@@ -21,7 +21,8 @@ TEST(Options, DefaultsAreThoseOfTheManual) {
     EXPECT_EQ(options.size_px, glm::ivec2(1024, 1024));
     EXPECT_EQ(options.fov_deg, 90.0);
     EXPECT_EQ(options.near_m, 0.05);
-    EXPECT_EQ(options.fill, "pyramid");
+    EXPECT_EQ(options.fill, "nearest-background");
+    EXPECT_EQ(parsed({"replay"}).fill, "pyramid");
     EXPECT_EQ(options.display_hz, 90.0);
     EXPECT_EQ(options.tracker_hz, 1000.0);
     EXPECT_EQ(options.lead_ms, 5.0);

@@ -1,7 +1,6 @@
 #include "warp_server/fill_pyramid.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "warp_server/fill_pyramid_kernels.h"
 #include "warp_server/hole_ends.h"
@@ -27,11 +26,13 @@ public:
         if (ends_.runs().empty()) return;
         if (ends_.hole_count() == frame.coverage.pixels().size()) return show_nothing(frame);
         resize(frame.coverage.size_px());
-        for (const HoleRun& run : ends_.runs()) {
-            set_limits(frame, run, ends_.background_of(frame, run, costs_of(run, guide)));
-        }
         mark_tiles();
         collect_tiles(guide);
+        for (const HoleRun& run : ends_.runs()) {
+            const int middle = (run.begin + run.end) / 2 / kFillTile_px;
+            const FillCosts costs = costs_along(towards_.at(middle, run.y / kFillTile_px));
+            set_limits(frame, run, ends_.background_of(frame, run, costs));
+        }
         collect_tile_runs();
         const FillPixels pixels{frame.colour.pixels().data(), frame.depth.pixels().data(), frame.coverage.size_px()};
         pull(pixels);
@@ -86,10 +87,9 @@ private:
     }
 
     // Half pixels of distance along the background's side, three times that against it.
-    static FillCosts costs_of(const HoleRun& run, const FillGuide& guide) {
-        const glm::vec2 way = direction(guide.background_px_m({0.5 * (run.begin + run.end), run.y + 0.5}));
-        const auto cost = [](float along) { return static_cast<std::int32_t>(std::lround(4.0F - 2.0F * along)); };
-        return {cost(-way.x), cost(way.x), cost(-way.y), cost(way.y)};
+    static FillCosts costs_along(const glm::vec2& towards) {
+        const auto cost = [](float along) { return static_cast<std::int32_t>(4.5F - 2.0F / kTowards_cells * along); };
+        return {cost(-towards.x), cost(towards.x), cost(-towards.y), cost(towards.y)};
     }
 
     // As alpha: 255 right beside the background, 0 where only the pyramid counts.

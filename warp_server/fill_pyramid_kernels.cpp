@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -242,16 +243,78 @@ void pull_tiles_here(const FillPixels& pixels, std::span<const FillTileSpan> til
     }
 }
 
-// Four floats: plain loops over them, which compilers turn into one instruction of the target's, so that no target
-// needs four lanes.
-struct Sum {
-    float parts[4] = {};
-};
+// The four floats of a cell. Multiplied and added apart, so that every instruction set rounds alike.
+#if HWY_TARGET == HWY_SCALAR
+struct Four {
+    std::array<float, 4> parts{};
 
-HWY_INLINE void add_weighted(Sum& sum, const FillCell& cell, float weight) {
-    const float values[4] = {cell.red, cell.green, cell.blue, cell.depth};
-    for (int i = 0; i < 4; ++i) sum.parts[i] += values[i] * weight;
-}
+    template <class Operation>
+    HWY_INLINE static Four each(Operation operation) {
+        return {{operation(std::size_t{0}), operation(std::size_t{1}), operation(std::size_t{2}),
+                 operation(std::size_t{3})}};
+    }
+    HWY_INLINE static Four of(float value) { return {{value, value, value, value}}; }
+    HWY_INLINE static Four of(const FillCell& cell) { return {{cell.red, cell.green, cell.blue, cell.depth}}; }
+    HWY_INLINE static Four of(Rgba8 c) {
+        return {{static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b), static_cast<float>(c.a)}};
+    }
+    HWY_INLINE Four operator+(const Four& b) const {
+        return each([&](std::size_t i) { return parts[i] + b.parts[i]; });
+    }
+    HWY_INLINE Four operator-(const Four& b) const {
+        return each([&](std::size_t i) { return parts[i] - b.parts[i]; });
+    }
+    HWY_INLINE Four operator*(const Four& b) const {
+        return each([&](std::size_t i) { return parts[i] * b.parts[i]; });
+    }
+    HWY_INLINE Four operator/(const Four& b) const {
+        return each([&](std::size_t i) { return parts[i] / b.parts[i]; });
+    }
+    HWY_INLINE Four root() const {
+        return each([&](std::size_t i) { return std::sqrt(parts[i]); });
+    }
+    // Everywhere the last part.
+    HWY_INLINE Four last() const { return of(parts[3]); }
+    // `a` where this is at most `most`, else `b`.
+    HWY_INLINE Four at_most(const Four& most, const Four& a, const Four& b) const {
+        return each([&](std::size_t i) { return parts[i] <= most.parts[i] ? a.parts[i] : b.parts[i]; });
+    }
+    HWY_INLINE void store(FillCell& cell) const { cell = {parts[0], parts[1], parts[2], parts[3]}; }
+    HWY_INLINE Rgba8 truncated() const {
+        const auto byte = [](float value) { return static_cast<std::uint8_t>(value); };
+        return {byte(parts[0]), byte(parts[1]), byte(parts[2]), 255};
+    }
+};
+#else
+struct Four {
+    using D = hn::FixedTag<float, 4>;
+    hn::VFromD<D> parts;
+
+    HWY_INLINE static Four of(float value) { return {hn::Set(D{}, value)}; }
+    HWY_INLINE static Four of(const FillCell& cell) { return {hn::LoadU(D{}, &cell.red)}; }
+    HWY_INLINE static Four of(Rgba8 colour) {
+        const hn::FixedTag<std::uint8_t, 4> d8;
+        return {hn::ConvertTo(D{}, hn::PromoteTo(hn::RebindToSigned<D>{}, hn::LoadU(d8, &colour.r)))};
+    }
+    HWY_INLINE Four operator+(const Four& b) const { return {hn::Add(parts, b.parts)}; }
+    HWY_INLINE Four operator-(const Four& b) const { return {hn::Sub(parts, b.parts)}; }
+    HWY_INLINE Four operator*(const Four& b) const { return {hn::Mul(parts, b.parts)}; }
+    HWY_INLINE Four operator/(const Four& b) const { return {hn::Div(parts, b.parts)}; }
+    HWY_INLINE Four root() const { return {hn::Sqrt(parts)}; }
+    HWY_INLINE Four last() const { return {hn::Broadcast<3>(parts)}; }
+    HWY_INLINE Four at_most(const Four& most, const Four& a, const Four& b) const {
+        return {hn::IfThenElse(hn::Le(parts, most.parts), a.parts, b.parts)};
+    }
+    HWY_INLINE void store(FillCell& cell) const { hn::StoreU(parts, D{}, &cell.red); }
+    HWY_INLINE Rgba8 truncated() const {
+        const hn::FixedTag<std::uint8_t, 4> d8;
+        const auto bytes = hn::DemoteTo(d8, hn::ConvertTo(hn::RebindToSigned<D>{}, parts));
+        // As one word: reading back single bytes would wait for them to be written.
+        const std::uint32_t word = hn::GetLane(hn::BitCast(hn::FixedTag<std::uint32_t, 1>{}, bytes));
+        return std::bit_cast<Rgba8>(word | std::bit_cast<std::uint32_t>(Rgba8{0, 0, 0, 255}));
+    }
+};
+#endif
 
 // Where along one axis the children of even or odd place read the coarser level.
 struct Tap {
@@ -266,83 +329,82 @@ HWY_INLINE Tap tap_of(int parity, float towards) {
     return {first, place - static_cast<float>(first)};
 }
 
+// How the children of one parity read the coarser level: four cells, and the weight of each.
 struct Taps {
-    std::array<Tap, 2> x;  // by parity
-    std::array<Tap, 2> y;
+    glm::ivec2 offset;
+    float weights[4];
 };
 
-HWY_INLINE Taps taps_of(const glm::vec2& towards) {
-    return {{tap_of(0, towards.x), tap_of(1, towards.x)}, {tap_of(0, towards.y), tap_of(1, towards.y)}};
+HWY_INLINE Taps taps_of(glm::ivec2 parity, const glm::vec2& towards) {
+    const Tap x = tap_of(parity.x, towards.x);
+    const Tap y = tap_of(parity.y, towards.y);
+    constexpr float kLeast = 1e-6F;  // so that the sum is never 0
+    return {{x.offset, y.offset},
+            {(1.0F - x.second) * (1.0F - y.second) + kLeast, x.second * (1.0F - y.second) + kLeast,
+             (1.0F - x.second) * y.second + kLeast, x.second * y.second + kLeast}};
 }
 
 // The value of the hole at (x, y) of the finer level with this limit.
-HWY_INLINE Sum push_value(const FillLevel& coarser, const Taps& taps, int x, int y, float limit) {
-    const Tap tx = taps.x[static_cast<std::size_t>(x & 1)];
-    const Tap ty = taps.y[static_cast<std::size_t>(y & 1)];
-    const int x0 = std::clamp((x >> 1) + tx.offset, 0, coarser.size.x - 1);
-    const int x1 = std::clamp((x >> 1) + tx.offset + 1, 0, coarser.size.x - 1);
-    const int y0 = std::clamp((y >> 1) + ty.offset, 0, coarser.size.y - 1);
-    const int y1 = std::clamp((y >> 1) + ty.offset + 1, 0, coarser.size.y - 1);
-    const FillCell* cells[4] = {&cell_at(coarser, x0, y0), &cell_at(coarser, x1, y0), &cell_at(coarser, x0, y1),
-                                &cell_at(coarser, x1, y1)};
-    const float bilinear[4] = {(1.0F - tx.second) * (1.0F - ty.second), tx.second * (1.0F - ty.second),
-                               (1.0F - tx.second) * ty.second, tx.second * ty.second};
-    const float allowed = limit * kAllowed;
-    Sum sum;
-    float weights = 0.0F;
-    for (int i = 0; i < 4; ++i) {
-        const float weight = (bilinear[i] + 1e-6F) * (cells[i]->depth <= allowed ? 1.0F : kForbiddenWeight);
-        add_weighted(sum, *cells[i], weight);
-        weights += weight;
-    }
-    const float scale = 1.0F / weights;
-    for (float& part : sum.parts) part *= scale;
-    return sum;
+HWY_INLINE Four push_value(const FillLevel& coarser, const Taps& taps, int x, int y, float limit) {
+    const int x0 = std::clamp((x >> 1) + taps.offset.x, 0, coarser.size.x - 1);
+    const int x1 = std::clamp((x >> 1) + taps.offset.x + 1, 0, coarser.size.x - 1);
+    const int y0 = std::clamp((y >> 1) + taps.offset.y, 0, coarser.size.y - 1);
+    const int y1 = std::clamp((y >> 1) + taps.offset.y + 1, 0, coarser.size.y - 1);
+    const Four cells[4] = {Four::of(cell_at(coarser, x0, y0)), Four::of(cell_at(coarser, x1, y0)),
+                           Four::of(cell_at(coarser, x0, y1)), Four::of(cell_at(coarser, x1, y1))};
+    const Four allowed = Four::of(limit * kAllowed);
+    const auto weight = [&](int i) {
+        const Four full = Four::of(taps.weights[i]);
+        return cells[i].last().at_most(allowed, full, full * Four::of(kForbiddenWeight));
+    };
+    const Four weights[4] = {weight(0), weight(1), weight(2), weight(3)};
+    const Four sum = (cells[0] * weights[0] + cells[1] * weights[1]) + (cells[2] * weights[2] + cells[3] * weights[3]);
+    return sum / ((weights[0] + weights[1]) + (weights[2] + weights[3]));
 }
 
 HWY_INLINE void push_one(const FillLevel& coarser, const Taps& taps, int x, int y, FillLevel& finer) {
     FillCell& cell = cell_at(finer, x, y);
     if (is_seen(cell.depth)) return;
-    const Sum value = push_value(coarser, taps, x, y, limit_of(cell.depth));
-    cell = {value.parts[0], value.parts[1], value.parts[2], value.parts[3]};
+    push_value(coarser, taps, x, y, limit_of(cell.depth)).store(cell);
+}
+
+void push_cells(const FillLevel& coarser, glm::ivec2 first, glm::ivec2 end, const glm::vec2& towards,
+                FillLevel& finer) {
+    const Taps taps[2][2] = {{taps_of({0, 0}, towards), taps_of({1, 0}, towards)},
+                             {taps_of({0, 1}, towards), taps_of({1, 1}, towards)}};
+    for (int y = first.y; y < end.y; ++y) {
+        for (int x = first.x; x < end.x; ++x) push_one(coarser, taps[y & 1][x & 1], x, y, finer);
+    }
 }
 
 void push_level_here(const FillLevel& coarser, FillLevel& finer) {
-    const Taps taps = taps_of(glm::vec2{0.0F});
-    for (int y = 0; y < finer.size.y; ++y) {
-        for (int x = 0; x < finer.size.x; ++x) push_one(coarser, taps, x, y, finer);
-    }
+    push_cells(coarser, glm::ivec2{0}, finer.size, glm::vec2{0.0F}, finer);
 }
 
 void push_tiles_here(const FillLevel& coarser, std::span<const FillTile> tiles, int side, FillLevel& finer) {
     for (const FillTile& tile : tiles) {
-        const Taps taps = taps_of(tile.towards);
-        const glm::ivec2 first = tile.index * side;
-        for (int y = first.y; y < first.y + side; ++y) {
-            for (int x = first.x; x < first.x + side; ++x) push_one(coarser, taps, x, y, finer);
-        }
+        push_cells(coarser, tile.index * side, (tile.index + 1) * side, tile.towards, finer);
     }
 }
 
-// Mixes the pyramid's value with the colour to continue.
-HWY_INLINE void store_pixel(const Sum& value, Rgba8& colour, float& depth) {
-    const float copied = static_cast<float>(colour.a) * (1.0F / 255.0F);
-    const auto mixed = [&](float averaged, std::uint8_t copy) {
-        const auto copy_f = static_cast<float>(copy);
-        return static_cast<std::uint8_t>(std::sqrt(averaged + copied * (copy_f * copy_f - averaged)) + 0.5F);
-    };
-    colour = {mixed(value.parts[0], colour.r), mixed(value.parts[1], colour.g), mixed(value.parts[2], colour.b), 255};
-    depth = value.parts[3];
+// The pyramid's value mixed with the colour to continue.
+HWY_INLINE Rgba8 mixed(const Four& value, Rgba8 colour) {
+    const Four copy = Four::of(colour);
+    const Four part = copy.last() * Four::of(1.0F / 255.0F);
+    return ((value + part * (copy * copy - value)).root() + Four::of(0.5F)).truncated();
 }
 
 void push_pixels_here(const FillLevel& level1, std::span<const FillTileRun> runs, const FillPixels& pixels) {
     for (const FillTileRun& run : runs) {
-        const Taps taps = taps_of(run.towards);
+        const Taps taps[2] = {taps_of({0, run.y & 1}, run.towards), taps_of({1, run.y & 1}, run.towards)};
         const std::size_t row = static_cast<std::size_t>(run.y) * static_cast<std::size_t>(pixels.size_px.x);
         for (int x = run.begin; x < run.end; ++x) {
             const std::size_t i = row + static_cast<std::size_t>(x);
-            const Sum value = push_value(level1, taps, x, run.y, limit_of(pixels.depth[i]));
-            store_pixel(value, pixels.colour[i], pixels.depth[i]);
+            const Four value = push_value(level1, taps[x & 1], x, run.y, limit_of(pixels.depth[i]));
+            pixels.colour[i] = mixed(value, pixels.colour[i]);
+            FillCell cell;
+            value.store(cell);
+            pixels.depth[i] = cell.depth;
         }
     }
 }

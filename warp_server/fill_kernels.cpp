@@ -19,6 +19,8 @@ struct Candidates {
     hn::VFromD<D> depth;
     hn::VFromD<hn::RebindToSigned<D>> cost;
     hn::VFromD<hn::RebindToSigned<D>> index;
+    hn::VFromD<hn::RebindToSigned<D>>
+        is_uncovered;  // as a mask: it was chosen against a nearer surface at the other end
 };
 
 // The farther one; the cheaper one when both are about as far.
@@ -34,8 +36,10 @@ HWY_INLINE Candidates<D> background_of(D d, const Candidates<D>& a, const Candid
     const auto farther_cost = hn::IfThenElse(b_farther_i, b.cost, a.cost);
     const auto take_cheaper = hn::And(hn::RebindMask(di, is_same), hn::Lt(nearer_cost, farther_cost));
     const auto take_b = hn::Xor(b_farther_i, take_cheaper);
+    const auto both_exist = hn::Lt(hn::Max(a.cost, b.cost), hn::Set(di, kNoCost));
     return {hn::IfThenElse(hn::RebindMask(d, take_b), b.depth, a.depth), hn::IfThenElse(take_b, b.cost, a.cost),
-            hn::IfThenElse(take_b, b.index, a.index)};
+            hn::IfThenElse(take_b, b.index, a.index),
+            hn::VecFromMask(di, hn::And(both_exist, hn::Not(hn::RebindMask(di, is_same))))};
 }
 
 // Lanes(d) pixels of the run from its pixel i on.
@@ -46,7 +50,8 @@ HWY_INLINE void choose_some(D d, const FillRun& run, int i, std::int32_t* chosen
     const auto no_cost = hn::Set(di, kNoCost);
     const auto along_row = [&](const FillEnd& end, auto distance_px, std::int32_t cost_per_px) {
         const auto end_cost = hn::Mul(distance_px, hn::Set(di, cost_per_px));
-        return Candidates<D>{hn::Set(d, end.depth), end.index >= 0 ? end_cost : no_cost, hn::Set(di, end.index)};
+        return Candidates<D>{hn::Set(d, end.depth), end.index >= 0 ? end_cost : no_cost, hn::Set(di, end.index),
+                             hn::Zero(di)};
     };
     const auto along_column = [&](const std::int32_t* rows, const float* depths, std::int32_t cost_per_px) {
         const auto row = hn::LoadU(di, rows + i);
@@ -54,7 +59,7 @@ HWY_INLINE void choose_some(D d, const FillRun& run, int i, std::int32_t* chosen
         const auto end_cost = hn::Mul(distance_px, hn::Set(di, cost_per_px));
         const auto exists = hn::Gt(row, hn::Set(di, -1));
         return Candidates<D>{hn::LoadU(d, depths + i), hn::IfThenElse(exists, end_cost, no_cost),
-                             hn::Add(hn::Mul(row, hn::Set(di, run.width)), columns)};
+                             hn::Add(hn::Mul(row, hn::Set(di, run.width)), columns), hn::Zero(di)};
     };
     const auto in_row =
         background_of(d, along_row(run.left, hn::Sub(columns, hn::Set(di, run.begin - 1)), run.costs.left),
@@ -62,8 +67,17 @@ HWY_INLINE void choose_some(D d, const FillRun& run, int i, std::int32_t* chosen
     const auto in_column = background_of(d, along_column(run.row_above, run.depth_above, run.costs.above),
                                          along_column(run.row_below, run.depth_below, run.costs.below));
     const auto best = background_of(d, in_row, in_column);
-    hn::StoreU(best.index, di, chosen + i);
-    hn::StoreU(best.cost, di, cost + i);
+    // Where only one of both has a foreground to uncover from, that one is right; where both have, the cheaper one.
+    const auto cheaper = hn::Lt(in_column.cost, in_row.cost);
+    const auto row_is_clear = hn::MaskFromVec(in_row.is_uncovered);
+    const auto column_is_clear = hn::MaskFromVec(in_column.is_uncovered);
+    const auto column_is_better = hn::And(column_is_clear, hn::Or(hn::Not(row_is_clear), cheaper));
+    const auto is_clear = hn::Or(row_is_clear, column_is_clear);
+    const auto choice = [&](auto of_row, auto of_column, auto of_best) {
+        return hn::IfThenElse(is_clear, hn::IfThenElse(column_is_better, of_column, of_row), of_best);
+    };
+    hn::StoreU(choice(in_row.index, in_column.index, best.index), di, chosen + i);
+    hn::StoreU(choice(in_row.cost, in_column.cost, best.cost), di, cost + i);
 }
 
 void choose_background_here(const FillRun& run, std::int32_t* chosen, std::int32_t* cost) {

@@ -41,9 +41,11 @@ struct FillRun {
 inline constexpr float kSameDepthPart = 0.1F;
 
 /// For each pixel of the run the index of the one to copy, -1 where there is none, and its cost, which is its
-/// distance by FillCosts: along row and column the farther surface, or the cheaper end where both are about as far; of
-/// those two again the farther one, or the cheaper where both are about as far. (The cheaper one alone would take a
-/// railing's bar beside a hole that is far behind it.)
+/// distance by FillCosts. Along row and column each the farther end, or the cheaper where both are about as far. Of row
+/// and column the one whose other end is nearer, as it must be where a foreground uncovers its background; the cheaper
+/// where both have such an end; where none has, again the farther one, or the cheaper where both are about as far. (The
+/// cheaper one alone would take a railing's bar beside a hole far behind it, the farther one alone a house above a car
+/// that drove off.)
 void choose_background(const FillRun& run, std::int32_t* chosen, std::int32_t* cost);
 
 /// Columns [begin, end): where `beside` is no hole, `rows` and `depths` take that row and its depth.

@@ -66,8 +66,7 @@ TEST(ReplayReport, HoldsTheKeysThatScriptsRead) {
 TEST(ReplayReport, CsvHasOneRowPerDisplayFrame) {
     const std::string csv = replay_csv(made_up_result());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-    EXPECT_THAT(csv,
-                HasSubstr("splat.flip,splat.ssim,splat.psnr_db,splat.hole_fraction,splat.attribution.resampled,"));
+    EXPECT_THAT(csv, HasSubstr("splat.flip,splat.ssim,splat.psnr_db,splat.hole_fraction,splat.attribution.resampled,"));
     EXPECT_THAT(csv, HasSubstr(",splat.flicker,\"points:size_px=2,x=1.flip\","));
     EXPECT_THAT(csv, HasSubstr(",0,0.9,,0.25,0.01,0.02,0.03,0.04,,0.5,")) << "an equal image has an empty PSNR";
 }

@@ -4,7 +4,9 @@ namespace lw {
 
 // The list of suites. To add one: a file apps/bench_ID.cpp with `Result<BenchOutput> bench_ID(const Options&)`, and a
 // line here:  ID, name, a few words for --help.
-#define LW_BENCH_SUITES(SUITE) SUITE(warp, "warp", "run time of every warp method against its error")
+#define LW_BENCH_SUITES(SUITE)                                             \
+    SUITE(warp, "warp", "run time of every warp method against its error") \
+    SUITE(billboards, "billboards", "a thousand objects as meshes and as billboards")
 
 #define LW_DECLARE(id, ...) Result<BenchOutput> bench_##id(const Options& options);
 LW_BENCH_SUITES(LW_DECLARE)

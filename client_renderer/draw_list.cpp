@@ -48,13 +48,17 @@ void DrawList::place(PlacedInstance& placed, const scene::SceneState& state) con
     placed.mirrored = glm::determinant(glm::dmat3{placed.world_from_object}) < 0.0;
 }
 
-void DrawList::collect_visible(const Camera& camera, bool cull) {
+void DrawList::collect_visible(const Camera& camera, bool cull, std::span<const std::uint8_t> replaced) {
     const Frustum frustum = frustum_of(camera);
     const glm::dvec3& eye_world = camera.world_from_eye.position_m;
     packed_.clear();
     for (std::size_t mesh = 0; mesh < scene_.meshes.size(); ++mesh) {
         for (std::uint32_t i = first_of_mesh_[mesh]; i < first_of_mesh_[mesh + 1]; ++i) {
             const PlacedInstance& placed = placed_[i];
+            if (!replaced.empty() &&
+                replaced[static_cast<std::size_t>(placed.instance - scene_.instances.data())] != 0) {
+                continue;
+            }
             if (cull && !may_see(frustum, placed.bounds_world)) continue;
             const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
             const auto zone =
@@ -75,9 +79,10 @@ void DrawList::collect_visible(const Camera& camera, bool cull) {
 }
 
 void DrawList::build(const scene::SceneState& state, const Camera& camera,
-                     std::span<const std::vector<MeshPart>> batches, bool cull) {
+                     std::span<const std::vector<MeshPart>> batches, bool cull,
+                     std::span<const std::uint8_t> replaced) {
     for (const std::uint32_t mover : movers_) place(placed_[mover], state);
-    collect_visible(camera, cull);
+    collect_visible(camera, cull, replaced);
 
     commands_.clear();
     ranges_.clear();

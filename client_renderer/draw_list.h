@@ -50,9 +50,10 @@ public:
 
     /// Fills the list for `camera`. `state` is at the time to draw: movers are placed anew, static instances keep their
     /// boxes. `batches[b]` are the parts drawn with the state of batch b. With `cull` false everything is drawn.
+    /// Instances i of the scene with `replaced[i]` set are left out; an empty span leaves out none.
     /// Transforms are composed in double relative to the eye and rounded to float once.
     void build(const scene::SceneState& state, const Camera& camera, std::span<const std::vector<MeshPart>> batches,
-               bool cull);
+               bool cull, std::span<const std::uint8_t> replaced = {});
 
     [[nodiscard]] const std::vector<PackedInstance>& instances() const { return packed_; }
     [[nodiscard]] const std::vector<DrawCommand>& commands() const { return commands_; }
@@ -74,7 +75,7 @@ private:
     };
 
     void place(PlacedInstance& placed, const scene::SceneState& state) const;
-    void collect_visible(const Camera& camera, bool cull);
+    void collect_visible(const Camera& camera, bool cull, std::span<const std::uint8_t> replaced);
     void append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches);
 
     const scene::Scene& scene_;

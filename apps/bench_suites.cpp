@@ -7,7 +7,8 @@ namespace lw {
 #define LW_BENCH_SUITES(SUITE)                                             \
     SUITE(warp, "warp", "run time of every warp method against its error") \
     SUITE(skip, "skip", "what leaving out costs and saves, and that nothing is missed") \
-    SUITE(stability, "stability", "numerical error of every warp method, of depth formats and far from the origin")
+    SUITE(stability, "stability", "numerical error of every warp method, of depth formats and far from the origin") \
+    SUITE(billboards, "billboards", "a thousand objects as meshes and as billboards")
 
 #define LW_DECLARE(id, ...) Result<BenchOutput> bench_##id(const Options& options);
 LW_BENCH_SUITES(LW_DECLARE)

@@ -12,8 +12,8 @@ class DemoFill final : public Fill {
 public:
     DemoFill(std::unique_ptr<Fill> fill, const DemoControls& controls) : fill_{std::move(fill)}, controls_{controls} {}
     [[nodiscard]] std::string_view name() const override { return fill_->name(); }
-    void apply(DisplayFrame& frame) override {
-        if (!controls_.holes_shown.load(std::memory_order_relaxed)) return fill_->apply(frame);
+    void apply(DisplayFrame& frame, const FillGuide& guide) override {
+        if (!controls_.holes_shown.load(std::memory_order_relaxed)) return fill_->apply(frame, guide);
         const auto coverage = frame.coverage.pixels();
         for (std::size_t i = 0; i < coverage.size(); ++i) {
             if (coverage[i] == Coverage::hole) frame.colour.pixels()[i] = kHoleColour;

@@ -133,15 +133,30 @@ Status GpuScene::compile_programs() {
     return Done{};
 }
 
+Status GpuScene::add_billboard_programs(AtlasFormat format) {
+    for (SurfaceBatch& batch : batches_) {
+        gl::Program& program = billboard_programs_[batch.features];
+        if (!program) {
+            std::string defines = defines_of(batch.features);
+            defines.append("#define BILLBOARD\n").append(lw::defines_of(format));
+            auto made = gl::Program::create({"client/gbuffer.vert", "client/gbuffer.frag"}, defines);
+            if (!made.ok()) return made.error();
+            program = std::move(*made);
+        }
+        batch.billboard_program = &program;
+    }
+    return Done{};
+}
+
 const scene::Material& GpuScene::material_of(const SurfaceBatch& batch) const {
     return batch.material == scene::kNone ? default_material_
                                           : scene_.materials[static_cast<std::size_t>(batch.material)];
 }
 
-void GpuScene::bind(const SurfaceBatch& batch) const {
+void GpuScene::bind(const SurfaceBatch& batch, Into into) const {
     const scene::Material& material = material_of(batch);
     const SurfaceFeatures& features = batch.features;
-    batch.program->use();
+    (into == Into::gbuffer ? batch.program : batch.billboard_program)->use();
     glBindBufferRange(GL_UNIFORM_BUFFER, shader::kBindingMaterial, materials_.id(), batch.block_offset,
                       sizeof(shader::MaterialBlock));
     if (features.base_colour_texture) textures_.bind(material.base_colour_texture, true, shader::kUnitBaseColour);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "client_renderer/clusters.h"
+#include "billboard_lod/billboard_atlas.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/surface_features.h"
 #include "client_renderer/texture_store.h"
@@ -22,6 +23,7 @@ struct SurfaceBatch {
     int material = scene::kNone;      ///< kNone: glTF's default material
     std::ptrdiff_t block_offset = 0;  ///< of its MaterialBlock in the material buffer
     const gl::Program* program = nullptr;
+    const gl::Program* billboard_program = nullptr;  ///< draws into a billboard's slot; null without billboards
 };
 
 /// Immutable once made. Belongs to one GL context and its thread.
@@ -30,6 +32,12 @@ public:
     /// Uploads meshes, materials and textures and compiles the shader variants that the materials need. `scene` is
     /// finished and outlives it. A shader that does not compile is an error.
     [[nodiscard]] static Result<std::unique_ptr<GpuScene>> create(const scene::Scene& scene);
+
+    /// Compiles the variants that draw into atlases of this format. Once, before billboards are painted.
+    [[nodiscard]] Status add_billboard_programs(AtlasFormat format);
+
+    /// What a batch is drawn into.
+    enum class Into : std::uint8_t { gbuffer, billboards };
 
     [[nodiscard]] const std::vector<SurfaceBatch>& batches() const { return batches_; }
     /// Mesh parts by batch, as DrawList takes them.
@@ -43,7 +51,7 @@ public:
     [[nodiscard]] const gl::Buffer& indices() const { return indices_; }
 
     /// Makes program, material block, textures and face culling current for a batch.
-    void bind(const SurfaceBatch& batch) const;
+    void bind(const SurfaceBatch& batch, Into into = Into::gbuffer) const;
 
 private:
     explicit GpuScene(const scene::Scene& scene) : scene_{scene}, textures_{scene} {}
@@ -68,6 +76,7 @@ private:
     std::unique_ptr<Clusters> clusters_ = std::make_unique<Clusters>();
     std::vector<std::vector<ClusterRange>> clusters_of_primitives_;  ///< by mesh and primitive
     std::map<SurfaceFeatures, gl::Program> programs_;
+    std::map<SurfaceFeatures, gl::Program> billboard_programs_;
     std::vector<SurfaceBatch> batches_;
     std::vector<std::vector<MeshPart>> parts_;
 };

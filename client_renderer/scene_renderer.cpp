@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "client_renderer/billboard_painter.h"
 #include "client_renderer/culling.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/frame_block.h"
@@ -97,6 +98,18 @@ public:
         draw_list_.emplace(*placed_);
     }
 
+    /// Makes the billboards of the settings, if any.
+    [[nodiscard]] Status add_billboards() {
+        if (settings_.billboards.mode == BillboardMode::off) return Done{};
+        const Status programs = gpu_scene_->add_billboard_programs(settings_.billboards.format);
+        if (!programs.ok()) return programs.error();
+        painter_.emplace(scene_, state_, *gpu_scene_);
+        auto field = BillboardField::create(scene_, *painter_, settings_.billboards, settings_.stage_clock);
+        if (!field.ok()) return field.error();
+        field_ = std::move(*field);
+        return Done{};
+    }
+
     [[nodiscard]] Status warm_up() {
         Camera camera;
         camera.size_px = {kWarmUpPx, kWarmUpPx};
@@ -113,7 +126,7 @@ public:
     }
 
     void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) override {
-        counters_ = {};
+        begin_picture(camera, scene_time_s, 1);
         const RenderTargets& targets = render(camera, scene_time_s);
         download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
     }
@@ -121,7 +134,7 @@ public:
     void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) override {
         check_samples(samples_per_axis);
         if (samples_per_axis == 1) return draw(camera, scene_time_s, pixels);
-        counters_ = {};
+        begin_picture(camera, scene_time_s, samples_per_axis);
         if (!resolved_ || resolved_->colour.size_px() != camera.size_px) resolved_ = make_layer(camera.size_px);
         resolve(camera, scene_time_s, samples_per_axis, *resolved_);
         download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
@@ -129,7 +142,7 @@ public:
 
     TexturePixels draw_to_textures(const Camera& camera, double scene_time_s, int samples_per_axis) override {
         check_samples(samples_per_axis);
-        counters_ = {};
+        begin_picture(camera, scene_time_s, samples_per_axis);
         LayerTextures layer = make_layer(camera.size_px);
         if (samples_per_axis == 1) {
             const RenderTargets& targets = render(camera, scene_time_s);
@@ -146,6 +159,7 @@ public:
                            ColourImage& colour) override {
         check_samples(samples_per_axis);
         counters_ = {};
+        replace_by_billboards_ = false;
         colour.resize(camera.size_px);
         if (samples_per_axis == 1) {
             const RenderTargets& targets = render(camera, scene_time_s);
@@ -171,10 +185,35 @@ public:
         state_.mover_placements(transforms);
     }
 
+    void use_billboards(bool use) override { use_billboards_ = use; }
+    [[nodiscard]] const BillboardField* billboards() const override { return field_.get(); }
+
     [[nodiscard]] const DrawCounters& counters() const override { return counters_; }
 
 private:
     static constexpr int kWarmUpPx = 64;
+
+    // Before the tiles of a picture are drawn: billboards are chosen and updated once for all of them.
+    void begin_picture(const Camera& camera, double scene_time_s, int samples_per_axis) {
+        counters_ = {};
+        replace_by_billboards_ = use_billboards_ && field_ != nullptr;
+        if (!replace_by_billboards_) return;
+        state_.set_time(scene_time_s);
+        Camera whole = camera;
+        whole.size_px *= samples_per_axis;
+        field_->prepare(whole, state_);
+    }
+
+    /// Runs `stage` and adds its time to `ms` where stages are timed.
+    template <class Stage>
+    void timed(double& ms, Stage stage) {
+        if (settings_.stage_clock == nullptr) return stage();
+        glFinish();
+        const TimePoint begin = settings_.stage_clock->now();
+        stage();
+        glFinish();
+        ms += to_ms(settings_.stage_clock->now() - begin);
+    }
 
     static void copy(const gl::Texture& from, const gl::Texture& to) {
         glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.size_px().x,
@@ -206,9 +245,17 @@ private:
         const RenderTargets& targets = targets_of(camera.size_px);
         decide_what_is_drawn(camera, scene_time_s);
         bind_frame(camera);
-        counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
-        lights_.build(scene_.point_lights, camera);
-        lighting_.draw(targets, lights_);
+        timed(counters_.meshes_ms, [&] { counters_.draw_calls += gbuffer_.draw(*draw_list_, targets); });
+        if (replace_by_billboards_) {
+            timed(counters_.billboards_ms, [&] {
+                targets.gbuffer.bind();
+                field_->draw(camera);
+            });
+        }
+        timed(counters_.light_ms, [&] {
+            lights_.build(scene_.point_lights, camera);
+            lighting_.draw(targets, lights_);
+        });
         return targets;
     }
 
@@ -217,7 +264,7 @@ private:
         state_.set_time(scene_time_s);
         placed_->move(state_);
         culling_->move();
-        const std::vector<std::uint32_t>& visible = culling_->visible(camera);
+        const std::span<const std::uint32_t> visible = drawn_as_meshes(culling_->visible(camera));
         ClusterUse clusters;
         gpu_scene_->clusters().counters() = {};
         if (settings_.culling.skip && settings_.culling.clusters) {
@@ -226,6 +273,18 @@ private:
         draw_list_->build(visible, camera, gpu_scene_->parts(), clusters);
         if (settings_.clock != nullptr) counters_.culling += settings_.clock->now() - begin;
         count_what_was_skipped();
+    }
+
+    // Without the instances that billboards stand for.
+    std::span<const std::uint32_t> drawn_as_meshes(std::span<const std::uint32_t> visible) {
+        if (!replace_by_billboards_) return visible;
+        const std::span<const std::uint8_t> replaced = field_->replaced();
+        meshes_.clear();
+        for (const std::uint32_t i : visible) {
+            const auto instance = static_cast<std::size_t>((*placed_)[i].instance - scene_.instances.data());
+            if (replaced[instance] == 0) meshes_.push_back(i);
+        }
+        return meshes_;
     }
 
     void count_what_was_skipped() {
@@ -266,6 +325,7 @@ private:
     scene::SceneState state_;
     std::optional<PlacedInstances> placed_;
     std::optional<Culling> culling_;
+    std::vector<std::uint32_t> meshes_;  // of the visible instances, those that no billboard stands for
     std::optional<DrawList> draw_list_;
     std::unique_ptr<GpuScene> gpu_scene_;
     GBufferPass gbuffer_;
@@ -275,6 +335,10 @@ private:
     std::optional<LayerTextures> resolved_;  ///< of the last size drawn with several samples
     LightTiles lights_;
     gl::Buffer frame_block_;
+    std::optional<BillboardPainter> painter_;
+    std::unique_ptr<BillboardField> field_;
+    bool use_billboards_ = false;
+    bool replace_by_billboards_ = false;  ///< in the picture being drawn
     std::vector<std::unique_ptr<RenderTargets>> targets_;
     DrawCounters counters_;
 };
@@ -293,6 +357,8 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(const scene::Scene&
     if (!resolve.ok()) return resolve.error();
     auto renderer = std::make_unique<DeferredSceneRenderer>(
         scene, settings, std::move(*gpu_scene), std::move(*lighting), std::move(*images), std::move(*resolve));
+    const Status billboards = renderer->add_billboards();
+    if (!billboards.ok()) return billboards.error();
     const Status warm = renderer->warm_up();
     if (!warm.ok()) return warm.error();
     return std::unique_ptr<SceneRenderer>{std::move(renderer)};

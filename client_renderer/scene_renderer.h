@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "billboard_lod/billboard_field.h"
 #include "client_renderer/culling_settings.h"
 #include "core/camera.h"
 #include "core/clock.h"
@@ -30,11 +31,17 @@ struct DrawCounters {
     std::uint64_t clusters_occluded = 0;
     std::uint64_t clusters_too_small = 0;
     Duration culling{};  ///< deciding what is drawn, with the draws for it; zero unless the settings have a clock
+    /// With a stage clock, each between two glFinish.
+    double meshes_ms = 0.0;
+    double billboards_ms = 0.0;  ///< drawing them; making and updating: BillboardCounters
+    double light_ms = 0.0;
 };
 
 struct SceneRendererSettings {
-    CullingSettings culling;  ///< whatever it skips, the picture is the same
-    Clock* clock = nullptr;   ///< for DrawCounters::culling; outlives the renderer
+    CullingSettings culling;             ///< whatever it skips, the picture is the same
+    Clock* clock = nullptr;              ///< for DrawCounters::culling; outlives the renderer
+    BillboardSettings billboards{};      ///< mode off: none, whatever use_billboards() says
+    const Clock* stage_clock = nullptr;  ///< times the stages of every draw, at the cost of waiting for each
 };
 
 /// Belongs to one GL context and its thread: made, used and destroyed with that context current.
@@ -76,6 +83,13 @@ public:
 
     /// Placements of the movers at a scene time.
     virtual void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) = 0;
+
+    /// Whether draw(), draw_resolved() and draw_to_textures() show far objects as billboards from now on; off at first,
+    /// so that truth and comparisons are meshes. With them a picture depends on those drawn before. Truth
+    /// (draw_supersampled) never shows any.
+    virtual void use_billboards(bool use) { static_cast<void>(use); }
+    /// Null without billboards in the settings.
+    [[nodiscard]] virtual const BillboardField* billboards() const { return nullptr; }
 
     [[nodiscard]] virtual const DrawCounters& counters() const = 0;  ///< of the last draw
 };

@@ -71,10 +71,10 @@ TEST(DemoControls, HolesAreMagentaWhenTheyAreToBeSeen) {
     std::fill(frame.colour.pixels().begin(), frame.colour.pixels().end(), Rgba8{1, 2, 3, 255});
     frame.coverage.at(2, 1) = Coverage::hole;
     DisplayFrame filled = frame;
-    fill->apply(filled);
+    fill->apply(filled, {});
     EXPECT_EQ(filled.colour.at(2, 1), (Rgba8{1, 2, 3, 255}));
     controls.holes_shown = true;
-    fill->apply(frame);
+    fill->apply(frame, {});
     EXPECT_EQ(frame.colour.at(2, 1), (Rgba8{255, 0, 255, 255}));
     EXPECT_EQ(frame.colour.at(1, 1), (Rgba8{1, 2, 3, 255}));
 }

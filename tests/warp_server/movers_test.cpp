@@ -108,7 +108,7 @@ struct Errors {
     [[nodiscard]] double ratio() const { return moving / still; }
 };
 
-// Mean FLIP of the box over four phases of its motion, each seen 50 ms earlier and 50 ms later than it was drawn for:
+// Mean FLIP of the box over eight phases of its motion, each seen 50 ms earlier and 50 ms later than it was drawn for:
 // a frame is drawn for the middle of its life of 100 ms. Pixels magnified by more than `most_magnified` are left out.
 Errors errors_of_box(ObjectId id, const char* method, double most_magnified) {
     const AnalyticScene moving = street_of_boxes();
@@ -116,8 +116,8 @@ Errors errors_of_box(ObjectId id, const char* method, double most_magnified) {
     const Camera target = moved(source, {0.01, 0.004, -0.008}, 1.0, 0.5);
     const double ppd = pixels_per_degree(target);
     Errors errors;
-    for (int phase = 0; phase < 4; ++phase) {
-        const double time_s = (id == 1 ? 0.08 : 0.25) * phase;  // a slide that stays in view; a whole turn
+    for (int phase = 0; phase < 8; ++phase) {
+        const double time_s = (id == 1 ? 0.04 : 0.125) * phase;  // a slide that stays in view; a whole turn
         const AnalyticScene still = frozen(moving, time_s);
         const ColourImage truth = moving.truth(target, time_s, 3);
         const Layer of_still = still.draw(source, 0.0, 2);
@@ -129,8 +129,8 @@ Errors errors_of_box(ObjectId id, const char* method, double most_magnified) {
             for (std::size_t i = 0; i < mask.pixels().size(); ++i) {
                 if (static_cast<double>(magnified.pixels()[i]) > most_magnified) mask.pixels()[i] = 0;
             }
-            errors.moving += flip_in(truth, shown_by(method, of_moving, target, moving.movers(time_s)), ppd, mask) / 8;
-            errors.still += flip_in(truth, shown_still, ppd, mask) / 8;
+            errors.moving += flip_in(truth, shown_by(method, of_moving, target, moving.movers(time_s)), ppd, mask) / 16;
+            errors.still += flip_in(truth, shown_still, ppd, mask) / 16;
         }
     }
     std::printf("%s, box %d, magnified at most %.1f times: FLIP %.4f, standing still %.4f, ratio %.2f\n", method, id,

@@ -78,9 +78,11 @@ def size_table(points, sizes=(512, 1024, 2048)):
             methods.setdefault(point["method"], {})[size] = point
     lines = ["| method | " + " | ".join(f"{size}x{size}" for size in sizes) + " |", "|---" * (len(sizes) + 1) + "|"]
     for method, row in sorted(methods.items(), key=lambda item: item[1].get(512, {"warp_ms": {"p50": 0}})["warp_ms"]["p50"]):
-        if len(row) < len(sizes):
+        if len(row) < 2:
             continue
-        cells = [f"{row[size]['warp_ms']['p50']:.2f} ({row[size]['memcpy_ratio']:.1f}x)" for size in sizes]
+        cells = [
+            f"{row[size]['warp_ms']['p50']:.2f} ({row[size]['memcpy_ratio']:.1f}x)" if size in row else "-" for size in sizes
+        ]
         lines.append(f"| `{method}` | " + " | ".join(cells) + " |")
     return lines
 

@@ -16,17 +16,17 @@ namespace {
 /// How much is measured.
 struct Plan {
     glm::ivec2 path_px{1024, 1024};
-    double path_step_s = 0.25;
-    int quality_every = 2;  ///< frames
+    double path_step_s = 0.3;
+    int quality_every = 4;  ///< frames
     glm::ivec2 sweep_px{512, 512};
     double sweep_from_s = 17.0;
     double sweep_to_s = 31.0;
-    double sweep_step_s = 0.35;
+    double sweep_step_s = 0.5;
     double flicker_from_s = 23.0;
-    double flicker_to_s = 25.0;
+    double flicker_to_s = 24.2;
     double flicker_step_s = 0.04;  ///< pictures of 25 Hz
-    std::vector<double> caps_px{0.25, 0.5, 1.0, 2.0, 4.0, 8.0};
-    std::vector<double> angle_scales{0.5, 1.0, 2.0, 4.0};
+    std::vector<double> caps_px{0.25, 0.5, 1.0, 2.0, 4.0};
+    std::vector<double> angle_scales{1.0, 2.0, 4.0};
     std::vector<double> shares{0.1, 0.2, 0.4};
 };
 
@@ -37,7 +37,7 @@ Plan plan_of(bool quick) {
     plan.path_step_s = 1.5;
     plan.quality_every = 1;
     plan.sweep_step_s = 1.4;
-    plan.flicker_to_s = 23.6;
+    plan.flicker_to_s = 23.4;
     plan.caps_px = {0.5, 2.0, 8.0};
     plan.angle_scales = {1.0};
     return plan;

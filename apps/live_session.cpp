@@ -353,7 +353,8 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     context->make_current();
     client_context_ = context.get();
     textures_ = entry_.needs_gl && !context->is_software();
-    auto made_renderer = SceneRenderer::create(scene_, {options_.culling});
+    auto made_renderer =
+        SceneRenderer::create(scene_, {.culling = options_.culling, .billboards = options_.billboards});
     if (!made_renderer) return made_renderer.error();
     renderer = with_load(std::move(made_renderer).value(), options_.load);
     if (textures_ && options_.inject.app_ms) {
@@ -363,6 +364,7 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     Camera camera = options_.camera();
     camera.world_from_eye = trace_.at(0.0);
     CpuPixels pixels;
+    renderer->use_billboards(true);
     renderer->draw_resolved(camera, 0.0, options_.source.samples_per_axis, pixels);
     return Done{};
 }

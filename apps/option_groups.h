@@ -11,4 +11,7 @@ void declare_bench_run(Declarer& declare);
 /// --error-cap, --budget-ms, --bench-data: what `--method auto` chooses by.
 void declare_autotune(Declarer& declare);
 
+/// --billboards and --billboard-*: which objects the client draws as billboards, and how.
+void declare_billboards(Declarer& declare);
+
 }  // namespace lw

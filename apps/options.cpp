@@ -221,6 +221,7 @@ void declare_live(Declarer declare) {
     declare_source(declare);
     declare_guard_band(declare, true);
     declare_skip(declare);
+    declare_billboards(declare);
     declare_method(declare);
     declare_timing(declare);
     declare_strips_and_load(declare);
@@ -242,6 +243,7 @@ void declare_replay(Declarer declare) {
     declare_source(declare);
     declare_guard_band(declare, true);
     declare_skip(declare);
+    declare_billboards(declare);
     declare_method(declare);
     declare_baselines(declare);
     declare_timing(declare);

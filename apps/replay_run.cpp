@@ -121,8 +121,10 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     renderer_->set_viewer_moves(options_.culling.min_pixels > 0.0 &&
                                 viewer_moves(*client_predictor_, feed_, begin, clock_.end_of_life(frame)));
     const Stopwatch drawing;
+    renderer_->use_billboards(true);  // by the client alone: truth and fresh pictures are meshes
     renderer_->draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
     client_draws_.push_back(renderer_->counters());
+    renderer_->use_billboards(false);
     renderer_->mover_placements(layer->scene_time_s, layer->movers);
     costs_.app_ms.push_back(drawing.ms());
     for (std::size_t i = 0; i < warpers_.size(); ++i) {

@@ -30,6 +30,10 @@ public:
     void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
         renderer_->mover_placements(scene_time_s, transforms);
     }
+    void set_reveal_margin(double margin_m) override { renderer_->set_reveal_margin(margin_m); }
+    void set_viewer_moves(bool moves) override { renderer_->set_viewer_moves(moves); }
+    void use_billboards(bool use) override { renderer_->use_billboards(use); }
+    [[nodiscard]] const BillboardField* billboards() const override { return renderer_->billboards(); }
     [[nodiscard]] const DrawCounters& counters() const override { return renderer_->counters(); }
 
 private:

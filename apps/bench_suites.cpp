@@ -4,9 +4,9 @@ namespace lw {
 
 // The list of suites. To add one: a file apps/bench_ID.cpp with `Result<BenchOutput> bench_ID(const Options&)`, and a
 // line here:  ID, name, a few words for --help.
-#define LW_BENCH_SUITES(SUITE)                                             \
-    SUITE(warp, "warp", "run time of every warp method against its error") \
-    SUITE(skip, "skip", "what leaving out costs and saves, and that nothing is missed") \
+#define LW_BENCH_SUITES(SUITE)                                                                                      \
+    SUITE(warp, "warp", "run time of every warp method against its error")                                          \
+    SUITE(skip, "skip", "what leaving out costs and saves, and that nothing is missed")                             \
     SUITE(stability, "stability", "numerical error of every warp method, of depth formats and far from the origin") \
     SUITE(billboards, "billboards", "a thousand objects as meshes and as billboards")
 

@@ -62,21 +62,21 @@ struct Options {
     double near_m = 0.05;            ///< --near, metres in [1e-4, 100]
     bool near_given = false;         ///< warp takes the near plane of the layer unless this is set
 
-    std::string method;                       ///< --method, a warp method with settings; the best there is by default
-    std::string fill;                         ///< --fill; by default the best that is fast enough
-    bool fill_given = false;                  ///< --method auto chooses the fill too unless this is set
-    std::optional<double> error_cap;          ///< --error-cap of --method auto: mean FLIP, > 0
-    std::optional<double> budget_ms;          ///< --budget-ms of --method auto, > 0
-    std::filesystem::path bench_data;         ///< --bench-data of --method auto; empty: where bench keeps its own
-    std::string chosen_because;               ///< why --method auto became what `method` says; empty: it was given
-    std::vector<std::string> baselines;       ///< --baseline, in the order given, without repeats
+    std::string method;                  ///< --method, a warp method with settings; the best there is by default
+    std::string fill;                    ///< --fill; by default the best that is fast enough
+    bool fill_given = false;             ///< --method auto chooses the fill too unless this is set
+    std::optional<double> error_cap;     ///< --error-cap of --method auto: mean FLIP, > 0
+    std::optional<double> budget_ms;     ///< --budget-ms of --method auto, > 0
+    std::filesystem::path bench_data;    ///< --bench-data of --method auto; empty: where bench keeps its own
+    std::string chosen_because;          ///< why --method auto became what `method` says; empty: it was given
+    std::vector<std::string> baselines;  ///< --baseline, in the order given, without repeats
     SourcePose source_pose = SourcePose::predicted;  ///< --source-pose
     /// --source-samples, --source-density and --guard-band; render has no guard band unless it is given.
     SourceSettings source{1, 1.0, std::nullopt};
 
     CullingSettings culling;                ///< --no-skip
     std::optional<double> reveal_margin_m;  ///< --reveal-margin, metres; as the head moves unless given
-    BillboardSettings billboards{};  ///< --billboards, --billboard-*
+    BillboardSettings billboards{};         ///< --billboards, --billboard-*
 
     std::optional<double> app_hz;          ///< --app-hz; replay draws at 10 Hz unless given, live as fast as it can
     double display_hz = 90.0;              ///< --display-hz, [1, 1000]

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include "client_renderer/clusters.h"
 #include "billboard_lod/billboard_atlas.h"
+#include "client_renderer/clusters.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/surface_features.h"
 #include "client_renderer/texture_store.h"

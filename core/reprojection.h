@@ -42,9 +42,9 @@ struct ReprojectedSample {
 /// The per-object matrices of one layer for one display frame, as a dense table over object ids.
 class ReprojectionTable {
 public:
-    /// `at_source` and `at_target` may be in any order. A mover without a (usable) target transform holds its source one;
-    /// an id without a (usable) source transform has no matrix. Object 0 always has one.
-    /// Reuses its memory: no allocation once the largest id was seen. One thread at a time.
+    /// `at_source` and `at_target` may be in any order. A mover without a (usable) target transform holds its source
+    /// one; an id without a (usable) source transform has no matrix. Object 0 always has one. Reuses its memory: no
+    /// allocation once the largest id was seen. One thread at a time.
     void build(const Camera& source, const Camera& target, std::span<const ObjectTransform> at_source,
                std::span<const ObjectTransform> at_target);
 

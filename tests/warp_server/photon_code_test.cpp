@@ -10,7 +10,7 @@ namespace {
 ColourImage grey(glm::ivec2 size_px) { return ColourImage{size_px, Rgba8{90, 120, 200, 255}}; }
 
 TEST(PhotonCode, ComesBackFromThePicture) {
-    for (const glm::ivec2 size_px :
+    for (const glm::ivec2& size_px :
          {glm::ivec2{1024, 1024}, glm::ivec2{64, 16}, glm::ivec2{40, 9}, glm::ivec2{16, 4}}) {
         ColourImage picture = grey(size_px);
         for (const PhotonCode code :

@@ -177,11 +177,17 @@ HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const Projected& projec
     const DF d;
     const float reverse = projected.reverse[i];
     if (!(reverse < 1e29F)) return false;
-    const float left = std::max(projected.x0[i] - kSnapPx, 0.0F);
-    const float right = std::min(projected.x1[i] + kSnapPx, static_cast<float>(buffer.size_px().x) - 0.5F);
-    const float top = std::max(projected.y0[i] - kSnapPx, 0.0F);
-    const float bottom = std::min(projected.y1[i] + kSnapPx, static_cast<float>(buffer.size_px().y) - 0.5F);
-    if (!(left <= right && top <= bottom)) return false;
+    // In front of the eye and beside the picture: the test of the field of view is coarser than this rectangle.
+    const bool beside = projected.x1[i] + kSnapPx < 0.0F || projected.y1[i] + kSnapPx < 0.0F ||
+                        projected.x0[i] - kSnapPx > static_cast<float>(buffer.size_px().x) ||
+                        projected.y0[i] - kSnapPx > static_cast<float>(buffer.size_px().y);
+    if (beside) return true;
+    const float last_x = static_cast<float>(buffer.size_px().x) - 0.5F;
+    const float last_y = static_cast<float>(buffer.size_px().y) - 0.5F;
+    const float left = std::clamp(projected.x0[i] - kSnapPx, 0.0F, last_x);
+    const float right = std::clamp(projected.x1[i] + kSnapPx, 0.0F, last_x);
+    const float top = std::clamp(projected.y0[i] - kSnapPx, 0.0F, last_y);
+    const float bottom = std::clamp(projected.y1[i] + kSnapPx, 0.0F, last_y);
     const int x0 = static_cast<int>(left);
     const int x1 = static_cast<int>(right);
     const int y0 = static_cast<int>(top);

@@ -53,7 +53,7 @@ TEST_F(GlLiveFaults, AFullDiskIsOneErrorLine) {
 
 TEST_F(GlLiveFaults, AStalledClientIsReportedAsWhatItIs) {
     const auto folder = test::fresh_folder("stalled");
-    EXPECT_EQ(run_shell(measure_command("3", folder / "out", "--load stall=800")), 0);
+    EXPECT_EQ(run_shell(measure_command("5", folder / "out", "--load stall=800")), 0);
     const json report = json::parse(test::text_of(folder / "out" / "report.json"));
     EXPECT_LT(report.at("app").at("hz").get<double>(), 1.3);
     EXPECT_GT(report.at("display").at("refreshes").get<int>(), 200);

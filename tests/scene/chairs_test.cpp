@@ -76,6 +76,7 @@ TEST(Chairs, AsManyMoveAsWereAsked) {
 
 TEST(CurvedSurface, AFlatSheetFacesOneWay) {
     MeshBuilder builder{"sheet"};
+    builder.use_material(0, 1.0);
     const std::array<glm::dvec3, 6> points{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}};
     add_sheet(builder, points, 3, false);
     const Mesh mesh = builder.take();

@@ -6,19 +6,6 @@ namespace lw {
 
 namespace {
 
-PackedInstance packed(const glm::dmat4& world_from_object, const glm::dvec3& eye_world, ObjectId id) {
-    glm::dmat4 relative_from_object = world_from_object;
-    relative_from_object[3] -= glm::dvec4{eye_world, 0.0};
-    PackedInstance instance;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            instance.relative_from_object_rows[row][column] = static_cast<float>(relative_from_object[column][row]);
-        }
-    }
-    instance.object_id = id;
-    return instance;
-}
-
 double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
     return glm::distance(place, glm::clamp(place, box.min, box.max));
 }
@@ -58,7 +45,7 @@ void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world) {
                                               static_cast<std::uint32_t>(collected.size())};
             for (const std::uint32_t index : collected) {
                 const PlacedInstance& placed = placed_[index];
-                packed_.push_back(packed(placed.world_from_object, eye_world, placed.instance->mover));
+                packed_.push_back(packed_instance(placed.world_from_object, eye_world, placed.instance->mover));
                 placed_of_packed_.push_back(index);
             }
             collected.clear();

@@ -40,10 +40,9 @@ Status run_demo(const Options& given) {
 
     const bool window = WindowPresenter::is_display_present();
     if (!options.quiet) {
-        std::fprintf(
-            stderr, "latewarp demo: %s, %dx%d, %g s, %s\n", (*scene)->name.c_str(), options.size_px.x,
-            options.size_px.y, options.seconds,
-            window ? "window: drag to look, W A S D E C to move, Q to quit" : "no display, so without a window");
+        std::fprintf(stderr, "latewarp demo: %s, %dx%d, %g s, %s\n", (*scene)->name.c_str(), options.size_px.x,
+                     options.size_px.y, options.seconds,
+                     window ? "in a window, whose lower edge names the keys" : "no display, so without a window");
     }
     Report report{Subcommand::demo};
     const auto after = [&](SceneRenderer& renderer, const gl::Context& context, const LiveResult& result) {

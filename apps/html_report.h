@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/svg_plot.h"
 #include "core/result.h"
 
 namespace lw {
@@ -37,6 +38,8 @@ public:
     void add_table(const std::vector<std::vector<std::string>>& rows);
     /// Plots with fewer than two x values are left out.
     void add_plot(const LinePlot& plot);
+    /// With the plot's title as its heading.
+    void add_plot(const SvgPlot& plot);
     void add_png(std::span<const std::uint8_t> png_bytes, const std::string& caption);
 
     [[nodiscard]] std::string text() const;

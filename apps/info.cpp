@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <fstream>
 
+#include "apps/culling_map.h"
 #include "apps/report.h"
 #include "apps/subcommands.h"
+#include "core/image_io.h"
 #include "frame_link/frame_folder.h"
 #include "frame_link/trace.h"
 #include "scene/built_in.h"
@@ -48,7 +50,11 @@ Status describe_scene_file(Report& report, const Options& options) {
     }
     if (scene->start_pose) set_pose(report, "scene/start_pose", *scene->start_pose);
     report.set("warnings", scene->warnings);
-    return Done{};
+    if (options.culling_map.empty()) return Done{};
+    constexpr int kMapSide_px = 1024;
+    Camera camera = options.camera();
+    camera.world_from_eye = options.pose.value_or(scene->start_pose.value_or(Pose{}));
+    return write_png(options.culling_map, culling_map(*scene, options.culling, camera, 0.0, kMapSide_px));
 }
 
 void describe_layer(Report& report, const std::string& path, const Layer& layer) {

@@ -1,17 +1,23 @@
 #include "apps/live_session.h"
 
+#include <cmath>
 #include <cstdlib>
 #include <future>
 #include <memory>
 #include <optional>
 #include <thread>
 
+#include "apps/app_load.h"
+#include "apps/clip_recorder.h"
+#include "apps/demo_controls.h"
 #include "apps/interrupt.h"
 #include "apps/real_clock.h"
 #include "apps/scene_mover_feed.h"
+#include "apps/scene_stage.h"
 #include "apps/user_head.h"
 #include "apps/window_presenter.h"
 #include "frame_link/sampled_head_feed.h"
+#include "frame_link/sampled_mover_feed.h"
 #include "warp_server/methods/registry.h"
 #include "warp_server/server_loop.h"
 #include "warp_server/virtual_display.h"
@@ -21,9 +27,19 @@ namespace {
 
 // How often the main thread looks for Ctrl-C and the end, and how often it samples a viewer's hands.
 constexpr Duration kWatchPeriod = std::chrono::milliseconds{10};
+constexpr Duration kOverlayPeriod = std::chrono::milliseconds{100};
 constexpr Duration kHandsPeriod = std::chrono::milliseconds{2};
 // Room for the refreshes of a run that overruns its time a little.
 constexpr std::size_t kSpareRecords = 1024;
+
+/// The client's rate where its frames must meet the refreshes at every phase: a period that is a whole number of
+/// refreshes, give or take a fifth, gets 0.31 of one more. 0, as fast as it can, drifts by itself.
+double hz_between_refreshes(double app_hz, double display_hz) {
+    if (app_hz <= 0.0) return app_hz;
+    const double refreshes = display_hz / app_hz;
+    const double whole = std::round(refreshes);
+    return std::abs(refreshes - whole) < 0.2 ? display_hz / (whole + 0.31) : app_hz;
+}
 
 class LiveSession {
 public:
@@ -33,7 +49,7 @@ public:
           trace_{trace},
           after_{after},
           entry_{*find_warp_method(options.method)},
-          movers_{scene} {}
+          scene_movers_{scene} {}
 
     Result<LiveResult> run(bool window);
 
@@ -48,6 +64,10 @@ private:
     Status start_client();
     Status start_server();
     void watch();
+    void update_movers();
+    void follow_keys();
+    void show_overlay(TimePoint now);
+    void note_record(const DisplayRecord& record);
     [[nodiscard]] bool is_over(TimePoint& end) const;
 
     void client_thread();
@@ -55,12 +75,24 @@ private:
     void draw_until_stopped(SceneRenderer& renderer);
     void server_thread();
     Status prepare_server(std::unique_ptr<gl::Context>& context);
+    Status make_warper();
     void raise_priority();
+    void watch_photons();
+    [[nodiscard]] bool has_photon_codes() const {
+        return window_ == nullptr && options_.subcommand == Subcommand::measure;
+    }
+    [[nodiscard]] std::size_t reserved_parts() const {
+        return (static_cast<std::size_t>(options_.seconds * options_.display_hz) + kSpareRecords) *
+               static_cast<std::size_t>(options_.strips);
+    }
     void show_until_stopped();
 
     [[nodiscard]] const HeadPoseFeed& head() const {
-        return window_ != nullptr ? static_cast<const HeadPoseFeed&>(hands_feed_) : *trace_feed_;
+        if (window_ != nullptr) return hands_feed_;
+        return delayed_head_ ? static_cast<const HeadPoseFeed&>(*delayed_head_) : *trace_feed_;
     }
+    [[nodiscard]] FrameExchange& client_exchange() { return delay_line_ ? *before_delay_ : *exchange_; }
+    void begin_injection();
 
     const Options& options_;
     const scene::Scene& scene_;
@@ -75,14 +107,35 @@ private:
     std::optional<VirtualDisplay> virtual_display_;
     SampledHeadFeed hands_feed_;
     UserHead user_head_;
-    std::optional<TraceFeed> trace_feed_;
-    SceneMoverFeed movers_;
+    std::shared_ptr<const TraceFeed> trace_feed_;
+    std::optional<DelayedHeadFeed> delayed_head_;
+    std::optional<FrameDelayLine> delay_line_;
+    SceneMoverFeed scene_movers_;
+    SampledMoverFeed movers_;  ///< what the server is told of them
+    std::vector<ObjectTransform> mover_update_;
     std::unique_ptr<FrameExchange> exchange_ = std::make_unique<FrameExchange>();
+    std::unique_ptr<FrameExchange> before_delay_ = std::make_unique<FrameExchange>();
     std::optional<FrameWarper> warper_;
     std::unique_ptr<HeadPosePredictor> server_predictor_;
     std::unique_ptr<HeadPosePredictor> client_predictor_;
     bool textures_ = false;
     const gl::Context* client_context_ = nullptr;
+
+    // The demo's window only.
+    struct Latest {
+        std::atomic<double> motion_to_photon_ms{0.0};
+        std::atomic<double> frame_age_ms{0.0};
+        std::atomic<double> warp_ms{0.0};
+        std::atomic<double> missed_of_1000{0.0};
+    };
+    DemoControls controls_;
+    SwitchingMethod* demo_method_ = nullptr;  ///< the warper's
+    std::unique_ptr<ClipRecorder> clip_;
+    Latest latest_;
+    TimePoint overlay_shown_at_;
+    TimePoint rate_counted_at_;
+    double rate_counted_ = 0.0;
+    double app_hz_ = 0.0;
 
     bool realtime_allowed_ = false;
     Phases client_;
@@ -104,11 +157,12 @@ private:
 // Main thread.
 
 Result<LiveResult> LiveSession::run(bool window) {
-    const std::string predictor = options_.predict.value_or("constant-velocity");
+    const std::string predictor = options_.predict.value_or(std::string{kDefaultPredictor});
     for (auto* made : {&server_predictor_, &client_predictor_}) {
         // The client never foresees: the oracle concerns the server.
         const bool is_client = made == &client_predictor_;
-        auto result = make_predictor(is_client && predictor == "oracle" ? "constant-velocity" : predictor);
+        auto result =
+            make_predictor(is_client && predictor == "oracle" ? kDefaultPredictor : std::string_view{predictor});
         if (!result) return result.error();
         *made = std::move(result).value();
     }
@@ -124,15 +178,25 @@ Result<LiveResult> LiveSession::run(bool window) {
         server = std::thread{[this] { server_thread(); }};
         status = server_.ready.get_future().get();
     }
-    if (status) trace_feed_.emplace(trace_, clock_.now(), options_.tracker_hz);
+    if (status) {
+        trace_feed_ = std::make_shared<const TraceFeed>(trace_, clock_.now(), options_.tracker_hz);
+        if (options_.inject.any()) begin_injection();
+    }
     go_.set_value(status.ok());
     if (status) watch();
     if (server.joinable()) server.join();
+    if (delay_line_) delay_line_->stop();
     server_ended_.set_value();
     client.join();
     if (!status) return status.error();
     if (Status done = client_.done.get_future().get(); !done) return done.error();
     return std::move(result_);
+}
+
+void LiveSession::begin_injection() {
+    result_.injection = InjectionPlan{options_.inject, clock_.now()};
+    delayed_head_.emplace(*trace_feed_, result_.injection);
+    if (options_.inject.app_ms) delay_line_.emplace(clock_, *before_delay_, *exchange_, result_.injection);
 }
 
 Status LiveSession::open_window() {
@@ -143,6 +207,10 @@ Status LiveSession::open_window() {
     auto window = WindowPresenter::create("Latewarp: " + scene_.name, options_.size_px, options_.display_hz);
     if (!window) return window.error();
     window_ = std::move(window).value();
+    clip_ = std::make_unique<ClipRecorder>(options_.out / "clip");
+    window_->on_picture = [this](const ColourImage& picture, const Refresh& refresh) {
+        if (controls_.recording) clip_->offer(picture, refresh.number);
+    };
     result_.in_window = true;
     return Done{};
 }
@@ -151,7 +219,9 @@ void LiveSession::watch() {
     TimePoint end = TimePoint::max();
     TimePoint last = clock_.now();
     while (!is_over(end)) {
+        update_movers();
         if (window_ == nullptr) {
+            result_.steal.sample(clock_.now());
             clock_.sleep_until(clock_.now() + kWatchPeriod);
             continue;
         }
@@ -160,10 +230,87 @@ void LiveSession::watch() {
         user_head_.advance(input, now - last, trace_feed_->pose_at(now));
         hands_feed_.push(now, user_head_.pose());
         last = now;
+        follow_keys();
+        show_overlay(now);
+        if (Status clip = clip_->write(); !clip) print_warnings({clip.error().message()}, false);
     }
     stop_ = true;
     if (ServerLoop* loop = running_server_) loop->request_stop();
     if (ClientLoop* loop = running_client_) loop->request_stop();
+}
+
+// As an application would that moves its objects a hundred times a second: the server predicts from there.
+void LiveSession::update_movers() {
+    const TimePoint now = clock_.now();
+    scene_movers_.placements_at(now, mover_update_);
+    movers_.push(now, mover_update_);
+}
+
+void LiveSession::follow_keys() {
+    const std::string keys = window_->take_keys();
+    for (const char key : keys) {
+        if (key == 'M') ++controls_.method;
+        if (key == 'H') controls_.holes_shown = !controls_.holes_shown;
+        if (key == 'F') controls_.renderer_frozen = !controls_.renderer_frozen;
+        if (key == 'O') controls_.overlay_shown = !controls_.overlay_shown;
+        if (key == 'R') controls_.recording = !controls_.recording;
+        const std::size_t rate = controls_.app_rate;
+        if (key == '+') controls_.app_rate = std::min(rate + 1, DemoControls::kAppRates_hz.size() - 1);
+        if (key == '-') controls_.app_rate = rate == 0 ? 0 : rate - 1;
+    }
+    if (keys.empty()) return;
+    overlay_shown_at_ = TimePoint{};
+    ClientLoop* client = running_client_;
+    if (client == nullptr) return;
+    client->set_frozen(controls_.renderer_frozen);
+    if (keys.find_first_of("+-") != std::string::npos)
+        client->set_max_hz(DemoControls::kAppRates_hz[controls_.app_rate]);
+}
+
+void LiveSession::show_overlay(TimePoint now) {
+    if (now - overlay_shown_at_ < kOverlayPeriod) return;
+    overlay_shown_at_ = now;
+    const int scale = std::max(1, options_.size_px.x / 512);
+    const double rate_hz = DemoControls::kAppRates_hz[controls_.app_rate];
+    const std::vector<std::string> labels =
+        demo_method_ != nullptr ? demo_method_->labels() : std::vector<std::string>{options_.method};
+    const std::string& method = labels[controls_.method % labels.size()];
+    const std::vector<std::string> help{
+        fmt::format(
+            "M METHOD: {}   F {}   +/- CLIENT: {}   H HOLES{}", method, controls_.renderer_frozen ? "FROZEN" : "FREEZE",
+            rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED", controls_.holes_shown ? ": SHOWN" : ""),
+        fmt::format("DRAG LOOK   W A S D E C MOVE   O OVERLAY   R {}   Q QUIT",
+                    controls_.recording ? fmt::format("RECORDING {}", clip_->written()) : "RECORD")};
+    std::vector<OverlayPanel> panels;
+    ColourImage text = text_panel(help, options_.size_px.x, scale);
+    const glm::ivec2 bottom_px{0, options_.size_px.y - text.height()};
+    panels.push_back({std::move(text), bottom_px});
+    if (controls_.overlay_shown) {
+        const double period_ms = 1e3 / options_.display_hz;
+        const auto published = static_cast<double>(exchange_->published_count());
+        if (now - rate_counted_at_ > from_seconds(1.0)) {
+            app_hz_ = (published - rate_counted_) / to_seconds(now - rate_counted_at_);
+            rate_counted_ = published;
+            rate_counted_at_ = now;
+        }
+        const std::vector<OverlayBar> bars{{"MOTION TO PHOTON", latest_.motion_to_photon_ms, 40.0, 2.0 * period_ms},
+                                           {"FRAME AGE", latest_.frame_age_ms, 400.0, 0.0},
+                                           {"WARP", latest_.warp_ms, 2.0 * period_ms, period_ms},
+                                           {"CLIENT", app_hz_, 90.0, 0.0, "HZ"},
+                                           {"MISSED OF 1000", latest_.missed_of_1000, 100.0, 10.0, ""}};
+        panels.push_back({bar_panel(bars, options_.size_px.x / 2, scale), {0, 0}});
+    }
+    window_->set_overlay(std::move(panels));
+}
+
+// Server's thread.
+void LiveSession::note_record(const DisplayRecord& record) {
+    const double missed = record.missed() ? 1000.0 : 0.0;
+    latest_.missed_of_1000 = latest_.missed_of_1000 + (missed - latest_.missed_of_1000) / 256.0;
+    if (!record.presented) return;
+    latest_.motion_to_photon_ms = to_ms(record.photon - record.pose_sampled);
+    latest_.frame_age_ms = to_ms(record.photon - record.frame_pose_sampled);
+    latest_.warp_ms = to_ms(record.warp_time());
 }
 
 bool LiveSession::is_over(TimePoint& end) const {
@@ -188,6 +335,7 @@ void LiveSession::client_thread() {
     may_drop_frames_.wait();
     // The server's thread is gone: what it wrote is visible here, and its frames may be dropped.
     exchange_.reset();
+    before_delay_.reset();
     Status done{Done{}};
     if (ready && may_go_.get()) {
         result_.interrupted = interrupt_.interrupted();
@@ -205,13 +353,18 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     context->make_current();
     client_context_ = context.get();
     textures_ = entry_.needs_gl && !context->is_software();
-    auto made_renderer = SceneRenderer::create(scene_);
+    auto made_renderer =
+        SceneRenderer::create(scene_, {.culling = options_.culling, .billboards = options_.billboards});
     if (!made_renderer) return made_renderer.error();
-    renderer = std::move(made_renderer).value();
+    renderer = with_load(std::move(made_renderer).value(), options_.load);
+    if (textures_ && options_.inject.app_ms) {
+        return Error{"frames in textures cannot be delayed", "--inject app", "choose a CPU --method"};
+    }
     // The driver compiles at the first draw; that is no frame of the run.
     Camera camera = options_.camera();
     camera.world_from_eye = trace_.at(0.0);
     CpuPixels pixels;
+    renderer->use_billboards(true);
     renderer->draw_resolved(camera, 0.0, options_.source.samples_per_axis, pixels);
     return Done{};
 }
@@ -220,21 +373,28 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     ClientSettings settings;
     settings.camera = options_.camera();
     settings.max_hz = options_.app_hz.value_or(0.0);
+    if (options_.inject.any()) settings.max_hz = hz_between_refreshes(settings.max_hz, options_.display_hz);
     settings.predict_source_pose = options_.source_pose == SourcePose::predicted;
     settings.source = options_.source;
     // A software GL pays for every pixel: twice of them (1.9x in the city) halved the client's rate, and the frames got
     // older by more than the band covers. There `auto` means none; a band in degrees is drawn as asked.
     if (!settings.source.guard_band_rad && client_context_->is_software()) settings.source.guard_band_rad = 0.0;
     settings.textures = textures_;
+    settings.reveal_margin_m = options_.reveal_margin_m;
+    settings.min_pixels = options_.culling.min_pixels;
     const auto prepare = [this](Layer& layer) {
         result_.source_views.push_back({layer.camera, layer.scene_time_s});
         warper_->prepare(layer);
     };
-    client_loop_.emplace(renderer, clock_, head(), *exchange_, std::move(client_predictor_), prepare, settings);
+    client_loop_.emplace(renderer, clock_, head(), client_exchange(), std::move(client_predictor_), prepare, settings);
     running_client_ = &*client_loop_;
     if (stop_) client_loop_->request_stop();  // asked for before there was a loop to ask
     client_loop_->run();
     result_.app_frames = client_loop_->records();
+    result_.app_failure = client_loop_->failure();
+    if (!result_.app_failure.empty()) {
+        print_warnings({fmt::format("the client stopped ({}): its last frame stays", result_.app_failure)}, false);
+    }
 }
 
 // Server's thread.
@@ -260,17 +420,40 @@ Status LiveSession::prepare_server(std::unique_ptr<gl::Context>& context) {
     }
     // The threads of a CPU method inherit the priority; those of a GL driver must not.
     if (!entry_.needs_gl) raise_priority();
-    auto warper = FrameWarper::create(options_.method, options_.fill);
-    if (!warper) return warper.error();
-    warper_ = std::move(warper).value();
+    if (Status made = make_warper(); !made) return made;
     if (window_ != nullptr) {
         window_->attach(clock_.now());
     } else {
         virtual_display_.emplace(clock_.now(), options_.display_hz, options_.size_px);
+        if (has_photon_codes()) watch_photons();
     }
     if (entry_.needs_gl) raise_priority();
     wake_exactly();
     return Done{};
+}
+
+Status LiveSession::make_warper() {
+    if (window_ == nullptr || entry_.needs_gl) {
+        auto warper = FrameWarper::create(options_.method, options_.fill);
+        if (!warper) return warper.error();
+        warper_ = std::move(warper).value();
+        return Done{};
+    }
+    auto method = make_demo_method(options_.method, controls_);
+    if (!method) return method.error();
+    auto fill = make_fill(options_.fill);
+    if (!fill) return fill.error();
+    demo_method_ = method->get();
+    warper_.emplace(std::move(*method), make_demo_fill(std::move(*fill), controls_));
+    return Done{};
+}
+
+void LiveSession::watch_photons() {
+    PhotonWatchSettings settings;
+    settings.strips = options_.strips;
+    settings.reserved_parts = reserved_parts();
+    settings.panel_latency = [this](TimePoint scanout) { return result_.injection.delay(Injected::present, scanout); };
+    virtual_display_->watch_photons(clock_, settings);
 }
 
 void LiveSession::raise_priority() {
@@ -281,7 +464,11 @@ void LiveSession::show_until_stopped() {
     ServerSettings settings;
     settings.camera = options_.camera();
     if (options_.lead_given) settings.pacer.fixed_lead = from_ms(options_.lead_ms);
-    settings.reserved_refreshes = static_cast<std::size_t>(options_.seconds * options_.display_hz) + kSpareRecords;
+    settings.strips = options_.strips;
+    settings.pacer.longest_lead_periods = options_.strips;
+    settings.photon_codes = has_photon_codes();
+    if (window_ != nullptr) settings.on_record = [this](const DisplayRecord& record) { note_record(record); };
+    settings.reserved_refreshes = reserved_parts();
     settings.thread_cpu_time = entry_.needs_gl ? nullptr : thread_cpu_time;
     Presenter& presenter = window_ != nullptr ? static_cast<Presenter&>(*window_) : *virtual_display_;
     server_loop_.emplace(ServerParts{clock_, *exchange_, head(), movers_, *server_predictor_, *warper_, presenter},
@@ -289,9 +476,18 @@ void LiveSession::show_until_stopped() {
     running_server_ = &*server_loop_;
     if (stop_) server_loop_->request_stop();
     server_loop_->run();
-    result_.refreshes = server_loop_->records();
+    result_.parts = server_loop_->records();
+    result_.refreshes = worst_strips(result_.parts, options_.strips);
+    result_.strips = options_.strips;
+    if (virtual_display_) {
+        const auto seen = virtual_display_->seen();
+        result_.seen.assign(seen.begin(), seen.end());
+        result_.true_head = trace_feed_;
+    }
     result_.app_frames_shown = server_loop_->frames_shown();
     result_.bad_head_poses = server_loop_->bad_head_poses();
+    result_.bad_placements = server_loop_->held().bad_placement;
+    result_.bad_layers = server_loop_->held().bad_layer;
     result_.display_camera = settings.camera;
 }
 

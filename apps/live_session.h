@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/injection.h"
 #include "apps/options.h"
+#include "apps/steal_watch.h"
 #include "apps/thread_priority.h"
 #include "client_renderer/client_loop.h"
 #include "core/result.h"
@@ -14,6 +16,7 @@
 #include "gl/context.h"
 #include "scene/scene.h"
 #include "warp_server/display_record.h"
+#include "warp_server/photon_watch.h"
 
 namespace lw {
 
@@ -24,11 +27,21 @@ struct SourceView {
 };
 
 struct LiveResult {
-    std::vector<DisplayRecord> refreshes;  ///< since the first picture
+    std::vector<DisplayRecord> refreshes;  ///< since the first picture; of each its worst strip
+    std::vector<DisplayRecord> parts;      ///< the same by strips; equal to `refreshes` where pictures are whole
+    int strips = 1;
+    std::vector<SeenPart> seen;  ///< what the display scanned out; empty in a window, which nobody can read back
+    /// What the head did; null where a viewer's hands moved it.
+    std::shared_ptr<const ForeseeingHeadPoseFeed> true_head;
+    InjectionPlan injection;
+    StealWatch steal;
+    std::string app_failure;  ///< what ended the client early; empty if nothing did
     std::vector<ClientFrameRecord> app_frames;
     std::vector<SourceView> source_views;  ///< of rendered frame i + 1
     std::uint64_t app_frames_shown = 0;
     std::uint64_t bad_head_poses = 0;
+    std::uint64_t bad_placements = 0;  ///< of movers, over all pictures
+    std::uint64_t bad_layers = 0;
     Scheduling scheduling = Scheduling::none;
     Camera display_camera;  ///< its pose is that of the last picture
     bool in_window = false;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/autotune.h"
 #include "apps/options.h"
 #include "apps/subcommands.h"
 
@@ -22,7 +23,10 @@ void print_error(const lw::Error& error) {
     std::fprintf(stderr, "latewarp: error: %s\n", line.c_str());
 }
 
-lw::Status run(const lw::Options& options) {
+lw::Status run(const lw::Options& given) {
+    const lw::Result<lw::Options> with_method = lw::with_chosen_method(given);
+    if (!with_method) return with_method.error();
+    const lw::Options& options = *with_method;
     switch (options.subcommand) {
         case lw::Subcommand::demo:
             return lw::run_demo(options);
@@ -36,6 +40,8 @@ lw::Status run(const lw::Options& options) {
             return lw::run_warp(options);
         case lw::Subcommand::compare:
             return lw::run_compare(options);
+        case lw::Subcommand::bench:
+            return lw::run_bench(options);
         case lw::Subcommand::generate:
             return lw::run_generate(options);
         case lw::Subcommand::info:

@@ -2,11 +2,27 @@
 
 #include <cstdio>
 
+#include "apps/latency_page.h"
 #include "apps/live_report.h"
 #include "apps/scene_stage.h"
 #include "apps/subcommands.h"
 
 namespace lw {
+
+namespace {
+
+/// The span of the time line: two frames of a client at 10 Hz.
+constexpr Duration kTimelineSpan = std::chrono::milliseconds{250};
+
+Status write_measurement(const Options& options, const LiveResult& result) {
+    const LatencyHarness harness = latency_of(result);
+    if (const Status csv = write_text(options.out / "refreshes.csv", refreshes_csv(result, harness)); !csv) return csv;
+    const std::string timeline = svg_of(timeline_of(result, kTimelineSpan), SvgUse::standalone);
+    if (const Status svg = write_text(options.out / "timeline.svg", timeline); !svg) return svg;
+    return write_text(options.out / "report.html", latency_page(options, result, harness));
+}
+
+}  // namespace
 
 Status run_measure(const Options& given) {
     Options options = given;
@@ -36,8 +52,8 @@ Status run_measure(const Options& given) {
     describe_settings(report, options);
     describe_live_run(report, options, *result);
     if (!options.out.empty()) {
-        const Status csv = write_text(options.out / "refreshes.csv", refreshes_csv(*result));
-        if (!csv) return csv;
+        const Status written = write_measurement(options, *result);
+        if (!written) return written;
     }
     if (options.report.empty()) {
         std::fputs(report.text().c_str(), stdout);

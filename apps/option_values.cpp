@@ -106,6 +106,25 @@ void check_name(const std::string& kind, const std::string& option, const std::s
     usage_error("unknown " + kind, option + " " + name, "one of " + joined(known));
 }
 
+void parse_named_numbers(const std::string& option, const std::string& text, const std::vector<std::string_view>& known,
+                         const Range& range, bool in_ms, const std::function<void(std::string_view, double)>& store) {
+    std::size_t begin = 0;
+    while (begin <= text.size()) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string entry = text.substr(begin, end - begin);
+        begin = end + 1;
+        const std::size_t equals = entry.find('=');
+        if (equals == std::string::npos) {
+            usage_error("not NAME=NUMBER", option + " " + text, "name one of " + joined(known));
+        }
+        const std::string name = entry.substr(0, equals);
+        check_name("name", option, name, known);
+        std::string number = entry.substr(equals + 1);
+        if (in_ms && number.size() > 2 && number.ends_with("ms")) number.resize(number.size() - 2);
+        store(name, number_in(option + " " + name, number, range));
+    }
+}
+
 std::filesystem::path parsed_path(const std::string& option, const std::string& text) {
     if (text.empty()) usage_error("an empty path", option, "name a file or folder");
     return text;

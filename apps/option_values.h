@@ -3,6 +3,7 @@
 /// what the option takes; parse_command_line() catches it. Nothing here knows the command line parser. Pure.
 
 #include <filesystem>
+#include <functional>
 #include <glm/glm.hpp>
 #include <optional>
 #include <string>
@@ -46,6 +47,10 @@ struct Range {
 [[nodiscard]] Pose parsed_pose(const std::string& text);
 /// "key=number,key=number" of --param, added to `parameters`.
 void add_parameters(const std::string& text, scene::Parameters& parameters);
+/// "name=number,name=number" with names from `known` and numbers in `range`; a number may end in "ms" where `in_ms`.
+/// `store` is called for each.
+void parse_named_numbers(const std::string& option, const std::string& text, const std::vector<std::string_view>& known,
+                         const Range& range, bool in_ms, const std::function<void(std::string_view, double)>& store);
 /// An empty path is refused, since it would mean "not given" further on.
 [[nodiscard]] std::filesystem::path parsed_path(const std::string& option, const std::string& text);
 

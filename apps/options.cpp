@@ -1,10 +1,11 @@
 #include "apps/options.h"
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <sstream>
 
+#include "apps/option_declarer.h"
+#include "apps/option_groups.h"
 #include "apps/option_values.h"
 #include "frame_link/prediction.h"
 #include "frame_link/trace.h"
@@ -16,49 +17,6 @@ namespace lw {
 namespace {
 
 using namespace option_values;
-
-/// Declares options of one subcommand. Values are parsed here and not by the library: one wording for all errors.
-class Declarer {
-public:
-    Declarer(CLI::App& app, Options& options) : app_{app}, options_{options} {}
-
-    template <class Parse>
-    CLI::Option* value(const std::string& names, const std::string& type, const std::string& help, Parse parse) {
-        return app_.add_option_function<std::string>(names, parse, help)->type_name(type)->take_last();
-    }
-    template <class Target>
-    void number(const std::string& name, const std::string& type, const Range& range, Target& target,
-                const std::string& help) {
-        value(name, type, help, [name, range, &target](const std::string& text) {
-            if constexpr (std::is_same_v<Target, std::optional<double>>) {
-                target = number_in(name, text, range);
-            } else {
-                target = static_cast<Target>(number_in(name, text, range));
-            }
-        });
-    }
-    template <class Add>
-    void repeated(const std::string& name, const std::string& type, const std::string& help, Add add) {
-        app_.add_option_function<std::vector<std::string>>(
-                name,
-                [add](const std::vector<std::string>& texts) {
-                    for (const std::string& text : texts) add(text);
-                },
-                help)
-            ->type_name(type)
-            ->allow_extra_args(false);
-    }
-    CLI::Option* path(const std::string& name, const std::string& type, std::filesystem::path& target,
-                      const std::string& help) {
-        return value(name, type, help, [name, &target](const std::string& text) { target = parsed_path(name, text); });
-    }
-    CLI::App& app() { return app_; }
-    Options& options() { return options_; }
-
-private:
-    CLI::App& app_;
-    Options& options_;
-};
 
 void declare_scene(Declarer& declare, bool required) {
     Options& options = declare.options();
@@ -96,15 +54,18 @@ void declare_camera(Declarer& declare) {
 
 void declare_method(Declarer& declare) {
     Options& options = declare.options();
-    declare.value("--method", "METHOD", "warp method, NAME or NAME:KEY=NUMBER,...; see below",
+    declare.value("--method", "METHOD", "warp method, NAME or NAME:KEY=NUMBER,..., or auto; see below",
                   [&options](const std::string& text) {
-                      check_method("--method", text, false);
+                      if (text != "auto") check_method("--method", text, false);
                       options.method = text;
                   });
-    declare.value("--fill", "FILL", "what is shown in holes (nearest-background)", [&options](const std::string& text) {
-        check_name("fill", "--fill", text, fill_names());
-        options.fill = text;
-    });
+    declare.value("--fill", "FILL", "what is shown in holes (pyramid; live nearest-background, which is faster)",
+                  [&options](const std::string& text) {
+                      check_name("fill", "--fill", text, fill_names());
+                      options.fill = text;
+                      options.fill_given = true;
+                  });
+    declare_autotune(declare);
 }
 
 void declare_source(Declarer& declare) {
@@ -138,6 +99,23 @@ void declare_guard_band(Declarer& declare, bool auto_allowed) {
     declare.value("--guard-band", "DEG", "view around the frame of --frame, per side (0)", degrees);
 }
 
+void declare_skip(Declarer& declare) {
+    Options& options = declare.options();
+    declare.app().add_flag_callback(
+        "--no-skip", [&options] { options.culling.skip = false; }, "draw everything, whether it is needed or not");
+    declare.value("--min-pixels", "N", "leave out what looks smaller than this while the viewer moves (0: nothing)",
+                  [&options](const std::string& text) {
+                      options.culling.min_pixels = number_in("--min-pixels", text, {0, 1000});
+                  });
+    declare.value("--reveal-margin", "auto|M",
+                  "hidden objects must be so for eyes this far; auto: as the head moves (auto)",
+                  [&options](const std::string& text) {
+                      options.reveal_margin_m.reset();
+                      if (text != "auto") options.reveal_margin_m = number_in("--reveal-margin", text, {0, 100});
+                      options.culling.reveal_margin_m = options.reveal_margin_m.value_or(0.0);
+                  });
+}
+
 void declare_timing(Declarer& declare) {
     Options& options = declare.options();
     declare.value("--source-pose", "predicted|sampled", "head pose the client draws for (predicted)",
@@ -162,6 +140,33 @@ void declare_timing(Declarer& declare) {
     declare.number("--app-latency", "MS", {0, 10000}, options.app_latency_ms,
                    "replay: from sampling to publishing (one client period)");
     declare.number("--seconds", "S", {1e-3, 3600}, options.seconds, "length of the run (10)");
+}
+
+void declare_strips_and_load(Declarer& declare) {
+    Options& options = declare.options();
+    declare.number("--strips", "N", {1, 64, true}, options.strips,
+                   "warp each picture in N strips, each just before it is scanned out (1)");
+    declare.value("--load", "triangles=N,stall=MS", "make the client slower: more to draw, a wait in every frame",
+                  [&options](const std::string& text) {
+                      parse_named_numbers("--load", text, {"triangles", "stall"}, {0, 1e9}, true,
+                                          [&](std::string_view name, double number) {
+                                              (name == "stall" ? options.load.stall_ms : options.load.triangles) =
+                                                  number;
+                                          });
+                  });
+}
+
+void declare_inject(Declarer& declare) {
+    Options& options = declare.options();
+    declare.value("--inject", "tracker=MS,app=MS,present=MS",
+                  "delays for the harness to find again, by turns in one run", [&options](const std::string& text) {
+                      parse_named_numbers("--inject", text, {"tracker", "app", "present"}, {0, 200}, true,
+                                          [&](std::string_view name, double ms) {
+                                              if (name == "tracker") options.inject.tracker_ms = ms;
+                                              if (name == "app") options.inject.app_ms = ms;
+                                              if (name == "present") options.inject.present_ms = ms;
+                                          });
+                  });
 }
 
 void declare_trace(Declarer& declare, bool required) {
@@ -194,10 +199,11 @@ void declare_truth(Declarer& declare) {
                   });
 }
 
-void declare_reports(Declarer& declare) {
+void declare_reports(Declarer& declare, bool frames) {
     Options& options = declare.options();
     declare.path("--out", "DIR", options.out, "folder for reports and images, made if missing");
     declare.path("--report", "FILE.json", options.report, "the JSON report");
+    if (!frames) return;
     declare.app().add_flag("--save-frames", options.save_frames, "keep every image in the --out folder");
 }
 
@@ -214,12 +220,20 @@ void declare_live(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, true);
+    declare_skip(declare);
+    declare_billboards(declare);
     declare_method(declare);
     declare_timing(declare);
+    declare_strips_and_load(declare);
     declare_truth(declare);
-    declare_reports(declare);
+    declare_reports(declare, true);
     declare_parameters(declare);
     declare_common(declare);
+}
+
+void declare_measure(Declarer declare) {
+    declare_live(declare);
+    declare_inject(declare);
 }
 
 void declare_replay(Declarer declare) {
@@ -228,11 +242,13 @@ void declare_replay(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, true);
+    declare_skip(declare);
+    declare_billboards(declare);
     declare_method(declare);
     declare_baselines(declare);
     declare_timing(declare);
     declare_truth(declare);
-    declare_reports(declare);
+    declare_reports(declare, true);
     declare_parameters(declare);
     declare_common(declare);
 }
@@ -253,6 +269,7 @@ void declare_render(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, false);
+    declare_skip(declare);
     declare_truth(declare);
     declare_parameters(declare);
     declare_common(declare);
@@ -293,8 +310,19 @@ void declare_generate(Declarer declare) {
     declare_common(declare);
 }
 
+void declare_bench(Declarer declare) {
+    declare_bench_run(declare);
+    declare_reports(declare, false);
+    declare_common(declare);
+}
+
 void declare_info(Declarer declare) {
-    declare.path("FILE", "", declare.options().input, "scene file, frame folder or trace")->required();
+    Options& options = declare.options();
+    declare.path("FILE", "", options.input, "scene, frame folder or trace")->required();
+    declare.path("--culling", "FILE.png", options.culling_map, "a scene from above: what is drawn and what is skipped");
+    declare_pose(declare, "world_from_eye for --culling (the scene's start pose)");
+    declare_skip(declare);
+    declare_parameters(declare);
     declare_common(declare);
 }
 
@@ -307,12 +335,13 @@ struct SubcommandEntry {
 constexpr std::array kSubcommands = {
     SubcommandEntry{Subcommand::demo, "demo", "Live: a slow client and a fast warp server, in a window if there is one",
                     declare_live},
-    SubcommandEntry{Subcommand::measure, "measure", "Live with the latency harness, JSON report", declare_live},
+    SubcommandEntry{Subcommand::measure, "measure", "Live with the latency harness, JSON report", declare_measure},
     SubcommandEntry{Subcommand::replay, "replay", "A head trace on a virtual clock, every frame against the truth",
                     declare_replay},
     SubcommandEntry{Subcommand::render, "render", "The truth image at a pose, and the client's frame", declare_render},
     SubcommandEntry{Subcommand::warp, "warp", "A frame folder warped to a pose", declare_warp},
     SubcommandEntry{Subcommand::compare, "compare", "PSNR, SSIM and FLIP of two images, as JSON", declare_compare},
+    SubcommandEntry{Subcommand::bench, "bench", "Run time against error, measured on this machine", declare_bench},
     SubcommandEntry{Subcommand::generate, "generate", "A built-in scene as a .glb file", declare_generate},
     SubcommandEntry{Subcommand::info, "info", "What is in a scene, a frame folder or a trace", declare_info},
 };
@@ -343,8 +372,8 @@ std::string footer() {
 }
 
 /// The best method there is: the first of these that was built. Live it must leave time to spare in every refresh of
-/// two busy cores: surface takes four times as long as splat there, and splat on one thread was too late for 17 % of
-/// the refreshes of a turning head where two threads were for 0.4-0.6 % (city, 1024x1024, in turns).
+/// two busy cores: in the city at 1024x1024 splat was too late for 0.84-1.3 % of the refreshes of a turning head on one
+/// thread and for 0.44-0.84 % on two (four runs each, 6 to 20 s); surface takes about four times as long.
 std::string default_method(Subcommand subcommand) {
     const bool live = subcommand == Subcommand::demo || subcommand == Subcommand::measure;
     for (const char* name : {live ? "splat:threads=2" : "surface", "splat", "reference"}) {
@@ -420,8 +449,25 @@ Result<CommandLine> parse(const std::vector<std::string>& arguments) {
 
 bool is_live(Subcommand subcommand) { return subcommand == Subcommand::demo || subcommand == Subcommand::measure; }
 
+/// The options of --method auto come together or not at all.
+Status check_autotune(const Options& options) {
+    const int limits = (options.error_cap ? 1 : 0) + (options.budget_ms ? 1 : 0);
+    if (options.method == "auto") {
+        if (limits == 1) return Done{};
+        return Error{limits == 0 ? "nothing to choose by" : "two things to choose by", "--method auto",
+                     "add either --error-cap or --budget-ms"};
+    }
+    if (limits == 0 && options.bench_data.empty()) return Done{};
+    return Error{"no method to choose", "--error-cap, --budget-ms and --bench-data", "add --method auto"};
+}
+
 /// Limits that concern two options at once.
 Status check_together(const Options& options) {
+    const Status autotune = check_autotune(options);
+    if (!autotune) return autotune;
+    if (!options.bench_merge.empty() && options.bench_part == "all") {
+        return Error{"nothing to merge", "--merge", "add --part errors or --part times"};
+    }
     const bool draws = options.subcommand == Subcommand::replay || options.subcommand == Subcommand::render;
     const int longest_px = std::max(options.size_px.x, options.size_px.y) * options.truth_samples;
     if (draws && longest_px > 2 * kMaxSidePx) {
@@ -453,6 +499,7 @@ Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments
     if (!command_line || command_line->text) return command_line;
     Options& options = command_line->options;
     if (options.method.empty()) options.method = default_method(options.subcommand);
+    if (options.fill.empty()) options.fill = is_live(options.subcommand) ? "nearest-background" : "pyramid";
     // A single frame tells nothing of the head's motion, and plain `warp` of its folder is to show the plain view.
     if (options.subcommand == Subcommand::render && !options.source.guard_band_rad) options.source.guard_band_rad = 0.0;
     seed_the_scene(options);

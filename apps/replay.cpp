@@ -84,6 +84,7 @@ Result<ReplayResult> run_all(const Options& options, ReplayRun& run) {
         progress.show(i + 1);
     }
     result.costs = run.costs();
+    result.client_draws = run.client_draws();
     result.bad_depth_pixels = run.bad_depth_count();
     result.source_pixels_ratio = run.source_pixels_ratio();
     return result;

@@ -4,9 +4,14 @@
 #include <limits>
 #include <numeric>
 
+#include "apps/skip_report.h"
+
 namespace lw {
 
 namespace {
+
+/// In the order of AttributedError's members.
+constexpr const char* kCauses[] = {"resampled", "disoccluded", "out_of_frame", "stale_shading"};
 
 /// One figure of one method per refresh; nothing for a picture without a PSNR.
 using Figure = std::optional<double> (*)(const ImageErrors&);
@@ -15,6 +20,11 @@ std::optional<double> flip_of(const ImageErrors& errors) { return errors.flip; }
 std::optional<double> ssim_of(const ImageErrors& errors) { return errors.ssim; }
 std::optional<double> psnr_of(const ImageErrors& errors) { return errors.psnr_db; }
 std::optional<double> holes_of(const ImageErrors& errors) { return errors.hole_fraction; }
+std::optional<double> flicker_of(const ImageErrors& errors) { return errors.flicker; }
+std::optional<double> resampled_of(const ImageErrors& errors) { return errors.attribution.resampled; }
+std::optional<double> disoccluded_of(const ImageErrors& errors) { return errors.attribution.disoccluded; }
+std::optional<double> out_of_frame_of(const ImageErrors& errors) { return errors.attribution.out_of_frame; }
+std::optional<double> stale_shading_of(const ImageErrors& errors) { return errors.attribution.stale_shading; }
 
 std::vector<double> known_values(const ReplayResult& result, std::size_t method, Figure figure) {
     std::vector<double> values;
@@ -35,6 +45,27 @@ void add_errors(Report& report, const std::string& path, const ErrorSummary& sum
     report.set(path + "/ssim", summary.ssim);
     report.set(path + "/psnr_db", summary.psnr_db);
     report.set(path + "/hole_fraction", summary.hole_fraction);
+    report.set(path + "/flicker", summary.flicker);
+    report.set(path + "/attribution/resampled", summary.attribution.resampled);
+    report.set(path + "/attribution/disoccluded", summary.attribution.disoccluded);
+    report.set(path + "/attribution/out_of_frame", summary.attribution.out_of_frame);
+    report.set(path + "/attribution/stale_shading", summary.attribution.stale_shading);
+}
+
+void add_cause_shares(Report& report, const ReplayResult& result) {
+    const auto add = [&](const char* key, double AttributedError::*part) {
+        std::vector<double> shares;
+        for (const RefreshRecord& record : result.refreshes) shares.push_back(record.cause_shares.*part);
+        report.set(fmt::format("cause_shares/{}", key), distribution_of(shares));
+    };
+    add("resampled", &AttributedError::resampled);
+    add("disoccluded", &AttributedError::disoccluded);
+    add("out_of_frame", &AttributedError::out_of_frame);
+    add("stale_shading", &AttributedError::stale_shading);
+}
+
+std::string csv_of(const AttributedError& parts) {
+    return fmt::format(",{},{},{},{}", parts.resampled, parts.disoccluded, parts.out_of_frame, parts.stale_shading);
 }
 
 void add_costs(Report& report, const ReplayResult& result) {
@@ -78,16 +109,46 @@ std::vector<std::string> table_row(const std::string& label, const ErrorSummary&
             mean_and(summary.psnr_db, &Distribution::p5),
             mean_and(summary.ssim, &Distribution::p5),
             mean_and(summary.hole_fraction, &Distribution::p95),
+            mean_and(summary.flicker, &Distribution::p95),
             mean_and(warp_ms, &Distribution::p99)};
+}
+
+std::vector<std::vector<std::string>> attribution_table(const ReplayResult& result) {
+    std::vector<std::vector<std::string>> rows = {
+        {"method", "FLIP", "resampled", "disoccluded", "out of frame", "stale shading"}};
+    const auto mean = [](const std::optional<Distribution>& d) { return d ? short_number(d->mean) : std::string{"-"}; };
+    for (std::size_t i = 0; i < result.labels.size(); ++i) {
+        const ErrorSummary summary = summary_of(result, i);
+        const ErrorSummary::Parts& parts = summary.attribution;
+        rows.push_back({result.labels[i], mean(summary.flip), mean(parts.resampled), mean(parts.disoccluded),
+                        mean(parts.out_of_frame), mean(parts.stale_shading)});
+    }
+    AttributedError shares;
+    const auto count = static_cast<double>(result.refreshes.size());
+    for (const RefreshRecord& record : result.refreshes) {
+        shares.resampled += record.cause_shares.resampled / count;
+        shares.disoccluded += record.cause_shares.disoccluded / count;
+        shares.out_of_frame += record.cause_shares.out_of_frame / count;
+        shares.stale_shading += record.cause_shares.stale_shading / count;
+    }
+    rows.push_back({"(share of the pixels)", short_number(shares.sum()), short_number(shares.resampled),
+                    short_number(shares.disoccluded), short_number(shares.out_of_frame),
+                    short_number(shares.stale_shading)});
+    return rows;
 }
 
 }  // namespace
 
 ErrorSummary summary_of(const ReplayResult& result, std::size_t method) {
     const std::vector<double> psnr_db = known_values(result, method, psnr_of);
-    return {distribution_of(known_values(result, method, flip_of)),
-            distribution_of(known_values(result, method, ssim_of)), distribution_of(psnr_db),
-            distribution_of(known_values(result, method, holes_of)), result.refreshes.size() - psnr_db.size()};
+    const auto over_run = [&](Figure figure) { return distribution_of(known_values(result, method, figure)); };
+    return {over_run(flip_of),
+            over_run(ssim_of),
+            distribution_of(psnr_db),
+            over_run(holes_of),
+            over_run(flicker_of),
+            {over_run(resampled_of), over_run(disoccluded_of), over_run(out_of_frame_of), over_run(stale_shading_of)},
+            result.refreshes.size() - psnr_db.size()};
 }
 
 std::size_t typical_refresh(const ReplayResult& result) {
@@ -109,6 +170,7 @@ void add_replay_results(Report& report, const ReplayResult& result) {
     report.set("settings/source_pixels_ratio", result.source_pixels_ratio);
     const ErrorSummary summary = summary_of(result, 0);
     add_errors(report, "error", summary);
+    add_cause_shares(report, result);
     report.set("equal_frames", summary.equal_frames);
     report.set("bad_depth_pixels", result.bad_depth_pixels);
     for (std::size_t i = 1; i < result.labels.size(); ++i) {
@@ -120,22 +182,29 @@ void add_replay_results(Report& report, const ReplayResult& result) {
     for (const RefreshRecord& record : result.refreshes) ages_ms.push_back(record.frame_age_ms());
     report.set("frame_age_ms", distribution_of(ages_ms));
     add_costs(report, result);
+    describe_skipped(report, result.client_draws);
 }
 
 std::string replay_csv(const ReplayResult& result) {
     std::string csv = "refresh,frame,latched_s,scanout_begin_s,photon_s,pose_sampled_s,frame_age_ms";
+    for (const char* cause : kCauses) csv += fmt::format(",cause_shares.{}", cause);
     for (const std::string& label : result.labels) {
         for (const char* figure : {"flip", "ssim", "psnr_db", "hole_fraction"}) {
             csv += "," + csv_field(fmt::format("{}.{}", label, figure));
         }
+        for (const char* cause : kCauses) csv += "," + csv_field(fmt::format("{}.attribution.{}", label, cause));
+        csv += "," + csv_field(fmt::format("{}.flicker", label));
     }
     csv += "\n";
     for (const RefreshRecord& record : result.refreshes) {
         csv += fmt::format("{},{},{},{},{},{},{:.6f}", record.refresh, record.frame, record.latched_s,
                            record.scanout_begin_s, record.photon_s, record.pose_sampled_s, record.frame_age_ms());
+        csv += csv_of(record.cause_shares);
         for (const ImageErrors& errors : record.errors) {
             csv += fmt::format(",{},{},{},{}", errors.flip, errors.ssim,
                                errors.psnr_db ? fmt::format("{}", *errors.psnr_db) : "", errors.hole_fraction);
+            csv += csv_of(errors.attribution);
+            csv += errors.flicker ? fmt::format(",{}", *errors.flicker) : ",";
         }
         csv += "\n";
     }
@@ -149,14 +218,23 @@ std::string replay_html(const ReplayResult& result, const std::string& title, co
     if (!strip_png.empty()) page.add_png(strip_png, "The display frame whose FLIP is the median of the run.");
     page.add_heading("Error against the antialiased truth at photon time: mean (bad tail)");
     std::vector<std::vector<std::string>> rows = {
-        {"method", "FLIP (p95)", "PSNR, dB (p5)", "SSIM (p5)", "holes (p95)", "warp, ms (p99)"}};
+        {"method", "FLIP (p95)", "PSNR, dB (p5)", "SSIM (p5)", "holes (p95)", "flicker (p95)", "warp, ms (p99)"}};
     for (std::size_t i = 0; i < result.labels.size(); ++i) {
         rows.push_back(table_row(result.labels[i], summary_of(result, i), cost_of(result.costs.warp_ms[i])));
     }
     page.add_table(rows);
+    page.add_heading("Where FLIP comes from: mean over the run, and the share of the pixels");
+    page.add_paragraph(
+        "Disoccluded: the source saw something else in the surface's place. Out of frame: the place lies outside of "
+        "the "
+        "source picture. Stale shading: the source shows the surface in another light. Resampled: everything else, "
+        "which is sampling. The parts sum to the whole.");
+    page.add_table(attribution_table(result));
     page.add_plot(plot_of(result, "FLIP", "lower is better", flip_of));
     page.add_plot(plot_of(result, "PSNR", "dB, higher is better", psnr_of));
     page.add_plot(plot_of(result, "SSIM", "higher is better", ssim_of));
+    page.add_plot(plot_of(result, "FLIP of disoccluded pixels", "part of the whole", disoccluded_of));
+    page.add_plot(plot_of(result, "Flicker", "change of the error on its surface, sRGB", flicker_of));
     page.add_plot(plot_of(result, "Holes before fill", "fraction of the picture", holes_of));
     LinePlot age{"Frame age", "photon time, s", "ms", {}, {{"frame age", {}}}};
     for (const RefreshRecord& record : result.refreshes) {

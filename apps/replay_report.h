@@ -17,17 +17,26 @@ struct ReplayResult {
     std::vector<std::string> labels;  ///< --method, then the baselines
     std::vector<RefreshRecord> refreshes;
     ReplayCosts costs;
+    std::vector<DrawCounters> client_draws;  ///< of every client frame
     double pixels_per_degree = 0.0;
     double source_pixels_ratio = 1.0;    ///< pixels of the client's frames over those of the display, mean
     std::uint64_t bad_depth_pixels = 0;  ///< of --method, over all refreshes
 };
 
-/// The four figures of one method over a run.
+/// The figures of one method over a run.
 struct ErrorSummary {
     std::optional<Distribution> flip;
     std::optional<Distribution> ssim;
     std::optional<Distribution> psnr_db;  ///< over the frames that differ from the truth
     std::optional<Distribution> hole_fraction;
+    std::optional<Distribution> flicker;  ///< over the frames that have one before them
+    struct Parts {
+        std::optional<Distribution> resampled;
+        std::optional<Distribution> disoccluded;
+        std::optional<Distribution> out_of_frame;
+        std::optional<Distribution> stale_shading;
+    };
+    Parts attribution;               ///< of FLIP
     std::uint64_t equal_frames = 0;  ///< frames equal to the truth, which have no PSNR
 };
 
@@ -37,11 +46,13 @@ struct ErrorSummary {
 /// Index of the refresh whose FLIP of --method is the median: the typical picture of a run. `refreshes` is not empty.
 [[nodiscard]] std::size_t typical_refresh(const ReplayResult& result);
 
-/// Adds `frames`, `error`, `baselines.<method>.error`, `frame_age_ms` and `cost_ms` to a report that has its settings.
+/// Adds `frames`, `error`, `cause_shares`, `baselines.<method>.error`, `frame_age_ms` and `cost_ms` to a report that
+/// has its settings.
 void add_replay_results(Report& report, const ReplayResult& result);
 
-/// One row per display frame: numbers, times, frame age, and for each method flip, ssim, psnr_db (empty for equal
-/// images) and hole_fraction.
+/// One row per display frame: numbers, times, frame age, the share of the pixels with each cause of error, and for each
+/// method flip, ssim, psnr_db (empty for equal images), hole_fraction, flip's parts by cause, and flicker (empty for
+/// the first frame).
 [[nodiscard]] std::string replay_csv(const ReplayResult& result);
 
 /// Plots over time and the table of distributions.

@@ -1,10 +1,12 @@
 #include "apps/replay_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <thread>
+
+#include "apps/parallel.h"
+
+#include "client_renderer/reveal_margin.h"
 
 namespace lw {
 
@@ -36,20 +38,6 @@ Camera camera_at(const Options& options, const Pose& world_from_eye) {
     Camera camera = options.camera();
     camera.world_from_eye = world_from_eye;
     return camera;
-}
-
-/// Calls work(i) for every i in [0, count) on up to `threads` threads.
-template <class Work>
-void for_each_in_parallel(std::size_t count, int threads, Work work) {
-    std::atomic<std::size_t> next{0};
-    const auto take_turns = [&] {
-        for (std::size_t i = next++; i < count; i = next++) work(i);
-    };
-    std::vector<std::thread> others;
-    const std::size_t wanted = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
-    for (std::size_t i = 1; i < wanted; ++i) others.emplace_back(take_turns);
-    take_turns();
-    for (std::thread& thread : others) thread.join();
 }
 
 }  // namespace
@@ -91,8 +79,10 @@ Status ReplayRun::make_methods() {
         if (!warper) return warper.error();
         warpers_.emplace_back(*std::move(warper));
     }
-    pictures_.shown.resize(labels_.size());
-    pictures_.hole_fraction.resize(labels_.size());
+    for (RefreshPictures* pictures : {&pictures_, &pictures_before_}) {
+        pictures->shown.resize(labels_.size());
+        pictures->hole_fraction.resize(labels_.size());
+    }
     costs_.prepare_ms.resize(labels_.size());
     costs_.warp_ms.resize(labels_.size());
     return Done{};
@@ -125,8 +115,16 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     layer->camera.world_from_eye = pose.world_from_head;
     layer->pose_sampled = pose.newest_sample;
     layer->scene_time_s = seconds_of(drawn_for);
+    renderer_->set_reveal_margin(reveal_margin_m(options_.reveal_margin_m, *client_predictor_, feed_, begin,
+                                                 pose.world_from_head, clock_.published(frame),
+                                                 clock_.end_of_life(frame)));
+    renderer_->set_viewer_moves(options_.culling.min_pixels > 0.0 &&
+                                viewer_moves(*client_predictor_, feed_, begin, clock_.end_of_life(frame)));
     const Stopwatch drawing;
+    renderer_->use_billboards(true);  // by the client alone: truth and fresh pictures are meshes
     renderer_->draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
+    client_draws_.push_back(renderer_->counters());
+    renderer_->use_billboards(false);
     renderer_->mover_placements(layer->scene_time_s, layer->movers);
     costs_.app_ms.push_back(drawing.ms());
     for (std::size_t i = 0; i < warpers_.size(); ++i) {
@@ -141,11 +139,15 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
 }
 
 void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s) {
+    if (labels_[method] == "fresh") {
+        pictures_.shown[method] = truth_.colour();
+        pictures_.hole_fraction[method] = 0.0;
+        return;
+    }
     if (!warpers_[method]) {
         // `fresh-same` has the source's samples, neither its density nor its guard band: what it shows is the display's
         // picture, drawn as well as the source was.
-        const int samples = labels_[method] == "fresh-same" ? options_.source.samples_per_axis : 1;
-        renderer_->draw_resolved(true_camera, photon_s, samples, fresh_pixels_);
+        renderer_->draw_resolved(true_camera, photon_s, options_.source.samples_per_axis, fresh_pixels_);
         pictures_.shown[method] = fresh_pixels_.colour;
         pictures_.hole_fraction[method] = 0.0;
         return;
@@ -160,8 +162,12 @@ void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera&
 }
 
 const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
+    has_before_ = !truth_.colour().empty() && record_.refresh + 1 == refresh;
+    std::swap(pictures_, pictures_before_);
+    std::swap(truth_, truth_before_);
     const std::uint64_t frame = clock_.frame_shown_at(refresh);
     if (drawn_frame_ != frame) draw_client_frame(frame);
+    renderer_->set_viewer_moves(false);  // the truth shows the smallest things
 
     const Refresh times = clock_.refresh(refresh);
     const TimePoint photon = times.photon();
@@ -169,9 +175,9 @@ const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
     const PredictedPose pose = server_predictor_->predict(feed_, clock_.latched(refresh), photon);
     const Camera true_camera = camera_at(options_, feed_.pose_at(photon));
     renderer_->draw_supersampled(true_camera, photon_s, options_.truth_samples, pictures_.truth);
-    renderer_->mover_placements(photon_s, movers_);
+    truth_.draw(*renderer_, true_camera, photon_s);
     for (std::size_t i = 0; i < labels_.size(); ++i) {
-        show(i, {camera_at(options_, pose.world_from_head), movers_}, true_camera, photon_s);
+        show(i, {camera_at(options_, pose.world_from_head), truth_.movers()}, true_camera, photon_s);
     }
     record_ = {refresh,
                frame,
@@ -179,18 +185,29 @@ const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
                seconds_of(times.scanout_begin),
                photon_s,
                seconds_of(frame_.layers.front()->pose_sampled),
+               {},
                {}};
     return pictures_;
+}
+
+std::optional<double> ReplayRun::flicker_of(std::size_t method, const Image<int>& pixels_before) const {
+    if (!has_before_) return std::nullopt;
+    return flicker(pictures_.truth, pictures_.shown[method], pictures_before_.truth, pictures_before_.shown[method],
+                   pixels_before);
 }
 
 RefreshRecord ReplayRun::judge() const {
     RefreshRecord record = record_;
     record.errors.resize(labels_.size());
     const double ppd = pixels_per_degree();
-    const int cores = static_cast<int>(std::thread::hardware_concurrency());
-    for_each_in_parallel(labels_.size(), options_.threads > 0 ? options_.threads : cores, [&](std::size_t i) {
-        record.errors[i] = errors_against(pictures_.truth, pictures_.shown[i], ppd);
+    const int threads = options_.threads;
+    const Image<ErrorCause> causes = truth_.causes(*frame_.layers.front(), threads);
+    const Image<int> pixels_before = has_before_ ? truth_.pixels_in(truth_before_, threads) : Image<int>{};
+    record.cause_shares = shares_of(causes);
+    for_each_in_parallel(labels_.size(), threads, [&](std::size_t i) {
+        record.errors[i] = errors_against(pictures_.truth, pictures_.shown[i], ppd, &causes);
         record.errors[i].hole_fraction = pictures_.hole_fraction[i];
+        record.errors[i].flicker = flicker_of(i, pixels_before);
     });
     return record;
 }

@@ -11,6 +11,7 @@
 #include "apps/image_errors.h"
 #include "apps/options.h"
 #include "apps/replay_clock.h"
+#include "apps/replay_truth.h"
 #include "apps/scene_stage.h"
 #include "client_renderer/source_camera.h"
 #include "core/result.h"
@@ -34,6 +35,7 @@ struct RefreshRecord {
     double scanout_begin_s = 0.0;
     double photon_s = 0.0;
     double pose_sampled_s = 0.0;      ///< stamp of the pose the client frame was predicted from
+    AttributedError cause_shares;     ///< share of the pixels whose error has each cause, for a warp of this frame
     std::vector<ImageErrors> errors;  ///< in the order of ReplayRun::labels()
 
     [[nodiscard]] double frame_age_ms() const { return (photon_s - pose_sampled_s) * 1e3; }
@@ -64,10 +66,12 @@ public:
     /// client frame is drawn once. The result is valid until the next call.
     const RefreshPictures& draw(std::uint64_t refresh);
 
-    /// Errors of the pictures of the last draw().
+    /// Errors of the pictures of the last draw(); their flicker where the draw() before was of the refresh before.
     [[nodiscard]] RefreshRecord judge() const;
 
     [[nodiscard]] const ReplayCosts& costs() const { return costs_; }
+    /// Of every client frame drawn.
+    [[nodiscard]] const std::vector<DrawCounters>& client_draws() const { return client_draws_; }
     /// Pixels of the client's frames so far over those of the display, mean over the frames.
     [[nodiscard]] double source_pixels_ratio() const;
     [[nodiscard]] std::uint64_t bad_depth_count() const { return bad_depth_count_; }
@@ -78,6 +82,7 @@ private:
     void draw_client_frame(std::uint64_t frame);
     [[nodiscard]] const Camera& source_camera_of(std::uint64_t frame);
     void show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s);
+    [[nodiscard]] std::optional<double> flicker_of(std::size_t method, const Image<int>& pixels_before) const;
 
     Options options_;
     ReplayClock clock_;
@@ -95,9 +100,13 @@ private:
     RenderedFrame frame_;
     CpuPixels fresh_pixels_;
     RefreshPictures pictures_;
+    ReplayTruth truth_;
     RefreshRecord record_;
-    std::vector<ObjectTransform> movers_;
+    bool has_before_ = false;  ///< the draw() before was of the refresh before; what it showed:
+    RefreshPictures pictures_before_;
+    ReplayTruth truth_before_;
     ReplayCosts costs_;
+    std::vector<DrawCounters> client_draws_;
     std::uint64_t bad_depth_count_ = 0;
 };
 

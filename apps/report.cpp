@@ -3,9 +3,7 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <thread>
 
 #include "core/image_io.h"
 
@@ -44,16 +42,6 @@ Json json_of(const Distribution& d) {
     return json;
 }
 
-std::string cpu_name() {
-    std::ifstream file{"/proc/cpuinfo"};
-    std::string line;
-    while (std::getline(file, line)) {
-        const std::size_t colon = line.find(": ");
-        if (line.rfind("model name", 0) == 0 && colon != std::string::npos) return line.substr(colon + 2);
-    }
-    return "unknown";
-}
-
 }  // namespace
 
 Report::Report() : tree_{std::make_unique<Tree>()} {}
@@ -81,19 +69,27 @@ void Report::set(std::string_view path, const std::optional<double>& number) {
 void Report::set(std::string_view path, const std::optional<Distribution>& maybe) {
     tree_->at(path) = maybe ? json_of(*maybe) : Json(nullptr);
 }
+void Report::set(std::string_view path, const Report& subtree) { tree_->at(path) = subtree.tree_->root; }
+void Report::append(std::string_view path, const Report& element) {
+    Json& array = tree_->at(path);
+    if (!array.is_array()) array = Json::array();
+    array.push_back(element.tree_->root);
+}
 void Report::set_null(std::string_view path) { tree_->at(path) = nullptr; }
 
 std::string Report::text() const { return tree_->root.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 Status Report::write(const std::filesystem::path& path) const { return write_text(path, text()); }
 
-void describe_machine(Report& report, const gl::Context* context) {
-    report.set("machine/cpu", cpu_name());
-    report.set("machine/cores", static_cast<int>(std::thread::hardware_concurrency()));
+void describe_machine(Report& report, const gl::Context* context) { describe_machine(report, machine_of(context)); }
+
+void describe_machine(Report& report, const Machine& machine) {
+    report.set("machine/cpu", machine.cpu);
+    report.set("machine/cores", machine.cores);
     report.set_null("machine/gl_renderer");
     report.set_null("machine/gl_version");
-    if (context == nullptr) return;
-    report.set("machine/gl_renderer", context->renderer());
-    report.set("machine/gl_version", context->version());
+    if (machine.gl_renderer.empty()) return;
+    report.set("machine/gl_renderer", machine.gl_renderer);
+    report.set("machine/gl_version", machine.gl_version);
 }
 
 void describe_scene(Report& report, const scene::Scene& scene) {
@@ -128,10 +124,14 @@ void describe_settings(Report& report, const Options& options) {
     set("display_hz", options.display_hz);
     if (options.predict) set("predict", *options.predict);
     set("tracker_hz", options.tracker_hz);
+    set("strips", options.strips);
+    if (options.load.triangles > 0.0) set("load/triangles", options.load.triangles);
+    if (options.load.stall_ms > 0.0) set("load/stall_ms", options.load.stall_ms);
     set("lead_ms", options.lead_ms);
     set("app_latency_ms", options.app_latency_ms);
     set("truth_samples", options.truth_samples);
     if (options.seed) set("seed", *options.seed);
+    if (!options.chosen_because.empty()) set("chosen_because", options.chosen_because);
     report.set("method", options.method);
     report.set("size_px", options.size_px);
 }

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "apps/machine.h"
 #include "apps/options.h"
 #include "core/result.h"
 #include "core/statistics.h"
@@ -46,6 +47,9 @@ public:
     void set(std::string_view path, const std::optional<double>& number);       ///< null when empty
     void set(std::string_view path, const std::optional<Distribution>& maybe);  ///< null when empty
     void set_null(std::string_view path);
+    void set(std::string_view path, const Report& subtree);  ///< a copy of all that `subtree` holds
+    /// One more element of the array at `path`, which begins empty.
+    void append(std::string_view path, const Report& element);
 
     /// Indented, ending with a line break. Bytes that are no UTF-8 (a file name) are replaced.
     [[nodiscard]] std::string text() const;
@@ -59,6 +63,7 @@ private:
 
 /// `machine{cpu,cores,gl_renderer,gl_version}`; the GL keys are null without a context.
 void describe_machine(Report& report, const gl::Context* context);
+void describe_machine(Report& report, const Machine& machine);
 /// `scene{name,triangles,objects,movers}`: triangles and objects over instances.
 void describe_scene(Report& report, const scene::Scene& scene);
 /// `settings{...}`, `method`, `size_px`: everything given or defaulted that bears on the result.

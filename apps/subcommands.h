@@ -19,6 +19,8 @@ namespace lw {
 [[nodiscard]] Status run_warp(const Options& options);
 /// PSNR, SSIM and FLIP of two images, as JSON on standard output.
 [[nodiscard]] Status run_compare(const Options& options);
+/// One suite of measurements: JSON, CSV, plots and an HTML page.
+[[nodiscard]] Status run_bench(const Options& options);
 /// A built-in scene as a .glb file.
 [[nodiscard]] Status run_generate(const Options& options);
 /// Counts, bounds and ignored parts of a scene, a frame folder or a trace.

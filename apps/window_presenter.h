@@ -2,9 +2,12 @@
 /// The display frame in a window. The only file with GLFW is its .cpp.
 
 #include <atomic>
+#include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "apps/overlay.h"
 #include "apps/user_head.h"
 #include "core/result.h"
 #include "warp_server/presenter.h"
@@ -28,6 +31,15 @@ public:
     /// Main thread: waits up to `longest` for events and returns what mouse and keys ask for. Escape, Q and the close
     /// button close the window.
     [[nodiscard]] virtual HeadInput wait_for_input(Duration longest) = 0;
+
+    /// Main thread: keys that were pressed since the last call, in order, as the capitals, digits and signs on them.
+    [[nodiscard]] virtual std::string take_keys() = 0;
+
+    /// Main thread: what is shown over the pictures from now on; panels that do not fit are cut off.
+    virtual void set_overlay(std::vector<OverlayPanel> panels) = 0;
+
+    /// Called with every picture on the server's thread; set before attach().
+    std::function<void(const ColourImage&, const Refresh&)> on_picture;
 
     /// Server's thread, before the first and after the last picture. Refreshes count from `start`.
     virtual void attach(TimePoint start) = 0;

@@ -1,11 +1,17 @@
 #include "client_renderer/client_loop.h"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
+
+#include "client_renderer/reveal_margin.h"
 
 namespace lw {
 
 namespace {
+
+// How often a client that was told to hold still looks whether it still is.
+constexpr Duration kFrozenLook = std::chrono::milliseconds{10};
 
 // Frames differ little from one to the next: a third of the newest follows a change within a few frames and halves the
 // jitter.
@@ -24,18 +30,34 @@ ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed
       predictor_{std::move(predictor)},
       prepare_{std::move(prepare)},
       settings_{std::move(settings)},
-      cameras_{settings_.camera, settings_.source} {
+      cameras_{settings_.camera, settings_.source},
+      max_hz_{settings_.max_hz} {
     LW_CHECK(predictor_ != nullptr, "a client without a predictor");
     records_.reserve(4096);  // minutes of frames: growing would cost a frame now and then
 }
 
 void ClientLoop::run() {
+    try {
+        draw_until_stopped();
+    } catch (const std::exception& error) {
+        failure_ = error.what();
+    } catch (...) {
+        failure_ = "an unknown exception";
+    }
+}
+
+void ClientLoop::draw_until_stopped() {
     TimePoint next_start = clock_.now();
     while (!stop_.load(std::memory_order_relaxed)) {
+        if (frozen_.load(std::memory_order_relaxed)) {
+            clock_.sleep_until(clock_.now() + kFrozenLook);
+            continue;
+        }
         draw_and_publish();
-        if (settings_.max_hz <= 0.0) continue;
+        const double max_hz = max_hz_.load(std::memory_order_relaxed);
+        if (max_hz <= 0.0) continue;
         // A late frame starts the next at once, and the rhythm anew.
-        next_start = std::max(next_start + from_seconds(1.0 / settings_.max_hz), clock_.now());
+        next_start = std::max(next_start + from_seconds(1.0 / max_hz), clock_.now());
         clock_.sleep_until(next_start);
     }
 }
@@ -51,6 +73,13 @@ void ClientLoop::draw_and_publish() {
     layer->camera.world_from_eye = head.world_from_head;
     layer->pose_sampled = head.newest_sample;
     layer->scene_time_s = seconds_of(target);
+    const TimePoint shown_from = sampled + latency_;
+    renderer_.set_reveal_margin(reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled,
+                                                head.world_from_head, shown_from, shown_from + period_));
+
+    if (settings_.min_pixels > 0.0) {
+        renderer_.set_viewer_moves(viewer_moves(*predictor_, head_, sampled, shown_from + period_));
+    }
 
     ClientFrameRecord record;
     record.index = records_.size() + 1;

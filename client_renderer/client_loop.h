@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "client_renderer/layer_pool.h"
@@ -19,7 +21,9 @@ namespace lw {
 struct ClientSettings {
     Camera camera;          ///< the display's size, field of view and near plane; its pose is ignored
     SourceSettings source;  ///< what is drawn for it
-    double max_hz = 0.0;    ///< 0: as fast as it can
+    std::optional<double> reveal_margin_m = 0.0;  ///< --reveal-margin, metres; nothing: as the head moves
+    double min_pixels = 0.0;                      ///< --min-pixels, to tell the renderer whether the viewer moves
+    double max_hz = 0.0;                          ///< 0: as fast as it can
     bool predict_source_pose =
         true;               ///< draw for the middle of the frame's life on the display (--source-pose predicted)
     bool textures = false;  ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory
@@ -46,18 +50,28 @@ public:
     ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed& head, FrameExchange& exchange,
                std::unique_ptr<HeadPosePredictor> predictor, PrepareLayer prepare, ClientSettings settings);
 
-    /// Draws and publishes until request_stop(), at most max_hz times a second.
+    /// Draws and publishes until request_stop(), at most max_hz times a second. A renderer that throws ends it: what
+    /// was published stays, and failure() says why.
     void run();
     /// One frame: what run() repeats.
     void draw_and_publish();
 
+    /// Any thread: at most so many frames per second from the next one on, 0 for as fast as it can.
+    void set_max_hz(double hz) { max_hz_.store(hz, std::memory_order_relaxed); }
+    /// Any thread: no new frames until it is set back; the newest one stays.
+    void set_frozen(bool frozen) { frozen_.store(frozen, std::memory_order_relaxed); }
+
     /// Any thread. The frame under way is still published.
     void request_stop() { stop_.store(true, std::memory_order_relaxed); }
+
+    /// What a renderer threw, empty if none did. After run() has returned.
+    [[nodiscard]] const std::string& failure() const { return failure_; }
 
     /// Every published frame. After run() has returned.
     [[nodiscard]] const std::vector<ClientFrameRecord>& records() const { return records_; }
 
 private:
+    void draw_until_stopped();
     [[nodiscard]] TimePoint middle_of_display_life(TimePoint sampled) const;
     void learn_timing(TimePoint sampled, TimePoint published);
 
@@ -71,7 +85,10 @@ private:
     SourceCameras cameras_;
     LayerPool layers_;
     std::atomic<bool> stop_{false};
+    std::atomic<bool> frozen_{false};
+    std::atomic<double> max_hz_;
     std::vector<ClientFrameRecord> records_;
+    std::string failure_;
     Duration latency_{};  ///< smoothed time from sampling to publishing
     Duration period_{};   ///< smoothed time between publications
 };

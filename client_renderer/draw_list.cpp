@@ -6,86 +6,81 @@ namespace lw {
 
 namespace {
 
-PackedInstance packed(const glm::dmat4& world_from_object, const glm::dvec3& eye_world, ObjectId id) {
-    glm::dmat4 relative_from_object = world_from_object;
-    relative_from_object[3] -= glm::dvec4{eye_world, 0.0};
-    PackedInstance instance;
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            instance.relative_from_object_rows[row][column] = static_cast<float>(relative_from_object[column][row]);
-        }
-    }
-    instance.object_id = id;
-    return instance;
-}
-
 double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
     return glm::distance(place, glm::clamp(place, box.min, box.max));
 }
 
 }  // namespace
 
-DrawList::DrawList(const scene::Scene& scene, const scene::SceneState& state) : scene_{scene} {
-    for (const scene::Instance& instance : scene.instances) placed_.push_back({&instance, {}, {}, false});
-    std::ranges::stable_sort(placed_, {}, [](const PlacedInstance& placed) { return placed.instance->mesh; });
-
-    first_of_mesh_.assign(scene.meshes.size() + 1, 0);
-    for (std::size_t i = 0; i < placed_.size(); ++i) {
-        place(placed_[i], state);
-        ++first_of_mesh_[static_cast<std::size_t>(placed_[i].instance->mesh) + 1];
-        if (placed_[i].instance->mover != 0) movers_.push_back(static_cast<std::uint32_t>(i));
-    }
-    for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) first_of_mesh_[mesh + 1] += first_of_mesh_[mesh];
+DrawList::DrawList(const PlacedInstances& placed) : placed_{placed} {
     for (auto& zone : visible_) {
-        for (auto& visible : zone) visible.resize(scene.meshes.size());
+        for (auto& visible : zone) visible.resize(placed.scene().meshes.size());
     }
 }
 
-void DrawList::place(PlacedInstance& placed, const scene::SceneState& state) const {
-    const scene::Mesh& mesh = scene_.meshes[static_cast<std::size_t>(placed.instance->mesh)];
-    placed.world_from_object = state.world_from_object(*placed.instance);
-    placed.bounds_world = scene::transformed(mesh.bounds, placed.world_from_object);
-    placed.mirrored = glm::determinant(glm::dmat3{placed.world_from_object}) < 0.0;
-}
-
-void DrawList::collect_visible(const Camera& camera, bool cull) {
-    const Frustum frustum = frustum_of(camera);
+void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& camera) {
     const glm::dvec3& eye_world = camera.world_from_eye.position_m;
     packed_.clear();
-    for (std::size_t mesh = 0; mesh < scene_.meshes.size(); ++mesh) {
-        for (std::uint32_t i = first_of_mesh_[mesh]; i < first_of_mesh_[mesh + 1]; ++i) {
-            const PlacedInstance& placed = placed_[i];
-            if (cull && !may_see(frustum, placed.bounds_world)) continue;
-            const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
-            const auto zone =
-                static_cast<std::size_t>(std::ranges::upper_bound(kZoneEnds_m, distance_m) - kZoneEnds_m.begin());
-            collected_[zone][placed.mirrored ? 1 : 0].push_back(
-                packed(placed.world_from_object, eye_world, placed.instance->mover));
-        }
-        for (std::size_t zone = 0; zone < kZones; ++zone) {
-            for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
-                std::vector<PackedInstance>& collected = collected_[zone][mirrored];
-                visible_[zone][mirrored][mesh] = {static_cast<std::uint32_t>(packed_.size()),
-                                                  static_cast<std::uint32_t>(collected.size())};
-                packed_.insert(packed_.end(), collected.begin(), collected.end());
-                collected.clear();
+    placed_of_packed_.clear();
+    for (auto& zone : visible_) {
+        for (auto& ranges : zone) std::ranges::fill(ranges, VisibleRange{});
+    }
+    for (std::size_t i = 0; i < visible.size(); ++i) {
+        const PlacedInstance& placed = placed_[visible[i]];
+        const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
+        const auto zone =
+            static_cast<std::size_t>(std::ranges::upper_bound(kZoneEnds_m, distance_m) - kZoneEnds_m.begin());
+        collected_[zone][placed.mirrored ? 1 : 0].push_back(visible[i]);
+        const int mesh = placed.instance->mesh;
+        const bool last_of_mesh = i + 1 == visible.size() || placed_[visible[i + 1]].instance->mesh != mesh;
+        if (last_of_mesh) end_mesh(static_cast<std::size_t>(mesh), eye_world);
+    }
+}
+
+void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world) {
+    for (std::size_t zone = 0; zone < kZones; ++zone) {
+        for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
+            std::vector<std::uint32_t>& collected = collected_[zone][mirrored];
+            visible_[zone][mirrored][mesh] = {static_cast<std::uint32_t>(packed_.size()),
+                                              static_cast<std::uint32_t>(collected.size())};
+            for (const std::uint32_t index : collected) {
+                const PlacedInstance& placed = placed_[index];
+                packed_.push_back(packed_instance(placed.world_from_object, eye_world, placed.instance->mover));
+                placed_of_packed_.push_back(index);
             }
+            collected.clear();
         }
     }
 }
 
-void DrawList::build(const scene::SceneState& state, const Camera& camera,
-                     std::span<const std::vector<MeshPart>> batches, bool cull) {
-    for (const std::uint32_t mover : movers_) place(placed_[mover], state);
-    collect_visible(camera, cull);
-
+void DrawList::build(std::span<const std::uint32_t> visible, const Camera& camera,
+                     std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters) {
+    collect(visible, camera);
     commands_.clear();
     ranges_.clear();
     triangles_drawn_ = 0;
-    for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches);
+    for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches, clusters);
 }
 
-void DrawList::append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches) {
+void DrawList::append_part(const MeshPart& part, const VisibleRange& visible, const ClusterUse& clusters) {
+    if (clusters.clusters == nullptr || part.clusters.count == 0) {
+        commands_.push_back({part.index_count, visible.count, part.first_index, part.base_vertex, visible.first});
+        triangles_drawn_ += std::uint64_t{part.index_count / 3} * visible.count;
+        return;
+    }
+    for (std::uint32_t i = visible.first; i < visible.first + visible.count; ++i) {
+        runs_.clear();
+        clusters.clusters->append_runs(part.clusters, placed_[placed_of_packed_[i]].world_from_object, clusters.view,
+                                       runs_);
+        for (const IndexRun& run : runs_) {
+            commands_.push_back({run.count, 1, part.first_index + run.first, part.base_vertex, i});
+            triangles_drawn_ += run.count / 3;
+        }
+    }
+}
+
+void DrawList::append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches,
+                             const ClusterUse& clusters) {
     for (std::size_t batch = 0; batch < batches.size(); ++batch) {
         for (const bool mirrored : {false, true}) {
             DrawRange range{static_cast<int>(batch), mirrored, commands_.size(), 0};
@@ -93,9 +88,7 @@ void DrawList::append_ranges(std::size_t zone, std::span<const std::vector<MeshP
                 const auto mesh = static_cast<std::size_t>(part.mesh);
                 const VisibleRange& visible = visible_[zone][mirrored ? 1 : 0][mesh];
                 if (visible.count == 0) continue;
-                commands_.push_back(
-                    {part.index_count, visible.count, part.first_index, part.base_vertex, visible.first});
-                triangles_drawn_ += std::uint64_t{part.index_count / 3} * visible.count;
+                append_part(part, visible, clusters);
             }
             range.command_count = commands_.size() - range.first_command;
             if (range.command_count > 0) ranges_.push_back(range);

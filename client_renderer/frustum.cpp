@@ -22,6 +22,15 @@ Frustum frustum_of(const Camera& camera) {
     return frustum;
 }
 
+FloatFrustum rounded(const Frustum& frustum) {
+    FloatFrustum single;
+    for (std::size_t i = 0; i < frustum.planes.size(); ++i) {
+        const glm::vec4 plane{frustum.planes[i]};
+        single.planes[i] = {plane.x, plane.y, plane.z, plane.w};
+    }
+    return single;
+}
+
 bool may_see(const Frustum& frustum, const scene::Bounds& bounds_world) {
     if (bounds_world.empty()) return false;
     const glm::dvec3 centre = bounds_world.centre();

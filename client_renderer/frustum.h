@@ -18,6 +18,19 @@ struct Frustum {
 /// Pure, any thread.
 [[nodiscard]] Frustum frustum_of(const Camera& camera);
 
+/// The same in single precision, for many boxes at a time.
+struct FloatFrustum {
+    struct Plane {
+        float x;
+        float y;
+        float z;
+        float w;
+    };
+    static constexpr unsigned kAllPlanes = 31;  ///< one bit per plane
+    std::array<Plane, 5> planes{};
+};
+[[nodiscard]] FloatFrustum rounded(const Frustum& frustum);
+
 /// False only when the whole box lies outside one half space: it may say yes to a box that is not in view, never no to
 /// one that is. False for an empty box. Pure, any thread.
 [[nodiscard]] bool may_see(const Frustum& frustum, const scene::Bounds& bounds_world);

@@ -30,6 +30,11 @@ void begin(const RenderTargets& targets, const gl::VertexArray& vertex_array, co
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_TRUE);
+    // Passes write encoded colour themselves. GL warp methods on the same context, as in replay, leave theirs on.
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    glDisable(GL_BLEND);
+    glDisable(GL_SCISSOR_TEST);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
 }
 
 void end() {

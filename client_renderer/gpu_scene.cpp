@@ -1,6 +1,7 @@
 #include "client_renderer/gpu_scene.h"
 
 #include <algorithm>
+#include <span>
 #include <tuple>
 
 #include "shaders/client_blocks.h"
@@ -65,10 +66,22 @@ void GpuScene::upload_meshes() {
             texture.push_back(pack_texture(vertex));
         }
         indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
+        cluster(mesh, std::span{indices}.subspan(first_index_.back()));
     }
+    clusters_->finish();
     surface_vertices_ = static_buffer(surface);
     texture_vertices_ = static_buffer(texture);
     indices_ = static_buffer(indices);
+}
+
+void GpuScene::cluster(const scene::Mesh& mesh, std::span<std::uint32_t> indices) {
+    std::vector<ClusterRange>& ranges = clusters_of_primitives_.emplace_back();
+    for (const scene::Primitive& primitive : mesh.primitives) {
+        SurfaceBatch batch;
+        batch.material = primitive.material;
+        ranges.push_back(clusters_->add(mesh.vertices, indices.subspan(primitive.first_index, primitive.index_count),
+                                        material_of(batch).double_sided));
+    }
 }
 
 void GpuScene::collect_batches() {
@@ -76,14 +89,15 @@ void GpuScene::collect_batches() {
     for (std::size_t m = 0; m < scene_.meshes.size(); ++m) {
         const scene::Mesh& mesh = scene_.meshes[m];
         const bool vertex_colour = has_vertex_colours(mesh);
-        for (const scene::Primitive& primitive : mesh.primitives) {
+        for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
+            const scene::Primitive& primitive = mesh.primitives[p];
             if (primitive.index_count == 0) continue;
             SurfaceBatch batch;
             batch.material = primitive.material;
             const SurfaceFeatures features = features_of(material_of(batch), vertex_colour, textures_.has_image());
-            parts_by_state[{features, primitive.material}].push_back({static_cast<int>(m), primitive.index_count,
-                                                                      first_index_[m] + primitive.first_index,
-                                                                      static_cast<std::int32_t>(first_vertex_[m])});
+            parts_by_state[{features, primitive.material}].push_back(
+                {static_cast<int>(m), primitive.index_count, first_index_[m] + primitive.first_index,
+                 static_cast<std::int32_t>(first_vertex_[m]), clusters_of_primitives_[m][p]});
         }
     }
     for (auto& [state, parts] : parts_by_state) {
@@ -119,15 +133,30 @@ Status GpuScene::compile_programs() {
     return Done{};
 }
 
+Status GpuScene::add_billboard_programs(AtlasFormat format) {
+    for (SurfaceBatch& batch : batches_) {
+        gl::Program& program = billboard_programs_[batch.features];
+        if (!program) {
+            std::string defines = defines_of(batch.features);
+            defines.append("#define BILLBOARD\n").append(lw::defines_of(format));
+            auto made = gl::Program::create({"client/gbuffer.vert", "client/gbuffer.frag"}, defines);
+            if (!made.ok()) return made.error();
+            program = std::move(*made);
+        }
+        batch.billboard_program = &program;
+    }
+    return Done{};
+}
+
 const scene::Material& GpuScene::material_of(const SurfaceBatch& batch) const {
     return batch.material == scene::kNone ? default_material_
                                           : scene_.materials[static_cast<std::size_t>(batch.material)];
 }
 
-void GpuScene::bind(const SurfaceBatch& batch) const {
+void GpuScene::bind(const SurfaceBatch& batch, Into into) const {
     const scene::Material& material = material_of(batch);
     const SurfaceFeatures& features = batch.features;
-    batch.program->use();
+    (into == Into::gbuffer ? batch.program : batch.billboard_program)->use();
     glBindBufferRange(GL_UNIFORM_BUFFER, shader::kBindingMaterial, materials_.id(), batch.block_offset,
                       sizeof(shader::MaterialBlock));
     if (features.base_colour_texture) textures_.bind(material.base_colour_texture, true, shader::kUnitBaseColour);

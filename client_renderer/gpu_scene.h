@@ -3,8 +3,11 @@
 
 #include <map>
 #include <memory>
+#include <span>
 #include <vector>
 
+#include "billboard_lod/billboard_atlas.h"
+#include "client_renderer/clusters.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/surface_features.h"
 #include "client_renderer/texture_store.h"
@@ -20,6 +23,7 @@ struct SurfaceBatch {
     int material = scene::kNone;      ///< kNone: glTF's default material
     std::ptrdiff_t block_offset = 0;  ///< of its MaterialBlock in the material buffer
     const gl::Program* program = nullptr;
+    const gl::Program* billboard_program = nullptr;  ///< draws into a billboard's slot; null without billboards
 };
 
 /// Immutable once made. Belongs to one GL context and its thread.
@@ -29,21 +33,32 @@ public:
     /// finished and outlives it. A shader that does not compile is an error.
     [[nodiscard]] static Result<std::unique_ptr<GpuScene>> create(const scene::Scene& scene);
 
+    /// Compiles the variants that draw into atlases of this format. Once, before billboards are painted.
+    [[nodiscard]] Status add_billboard_programs(AtlasFormat format);
+
+    /// What a batch is drawn into.
+    enum class Into : std::uint8_t { gbuffer, billboards };
+
     [[nodiscard]] const std::vector<SurfaceBatch>& batches() const { return batches_; }
     /// Mesh parts by batch, as DrawList takes them.
     [[nodiscard]] const std::vector<std::vector<MeshPart>>& parts() const { return parts_; }
+
+    /// Of the parts.
+    [[nodiscard]] Clusters& clusters() const { return *clusters_; }
 
     [[nodiscard]] const gl::Buffer& surface_vertices() const { return surface_vertices_; }
     [[nodiscard]] const gl::Buffer& texture_vertices() const { return texture_vertices_; }
     [[nodiscard]] const gl::Buffer& indices() const { return indices_; }
 
     /// Makes program, material block, textures and face culling current for a batch.
-    void bind(const SurfaceBatch& batch) const;
+    void bind(const SurfaceBatch& batch, Into into = Into::gbuffer) const;
 
 private:
     explicit GpuScene(const scene::Scene& scene) : scene_{scene}, textures_{scene} {}
 
     void upload_meshes();
+    /// Puts the indices of a mesh (a copy) in the order of its clusters.
+    void cluster(const scene::Mesh& mesh, std::span<std::uint32_t> indices);
     void collect_batches();
     void upload_materials();
     [[nodiscard]] Status compile_programs();
@@ -58,7 +73,10 @@ private:
     gl::Buffer materials_;
     std::vector<std::uint32_t> first_vertex_;  ///< by mesh
     std::vector<std::uint32_t> first_index_;   ///< by mesh
+    std::unique_ptr<Clusters> clusters_ = std::make_unique<Clusters>();
+    std::vector<std::vector<ClusterRange>> clusters_of_primitives_;  ///< by mesh and primitive
     std::map<SurfaceFeatures, gl::Program> programs_;
+    std::map<SurfaceFeatures, gl::Program> billboard_programs_;
     std::vector<SurfaceBatch> batches_;
     std::vector<std::vector<MeshPart>> parts_;
 };

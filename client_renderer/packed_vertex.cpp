@@ -25,6 +25,20 @@ struct Attribute {
 
 }  // namespace
 
+PackedInstance packed_instance(const glm::dmat4& world_from_object, const glm::dvec3& eye_world,
+                               std::uint32_t object_id) {
+    glm::dmat4 relative_from_object = world_from_object;
+    relative_from_object[3] -= glm::dvec4{eye_world, 0.0};
+    PackedInstance instance;
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            instance.relative_from_object_rows[row][column] = static_cast<float>(relative_from_object[column][row]);
+        }
+    }
+    instance.object_id = object_id;
+    return instance;
+}
+
 PackedSurfaceVertex pack_surface(const scene::Vertex& vertex) {
     PackedSurfaceVertex packed;
     packed.position_object = vertex.position_object;

@@ -32,6 +32,9 @@ struct PackedInstance {
 };
 static_assert(sizeof(PackedInstance) == 52);
 
+/// Composed in double relative to the eye, rounded once.
+[[nodiscard]] PackedInstance packed_instance(const glm::dmat4& world_from_object, const glm::dvec3& eye_world,
+                                             std::uint32_t object_id);
 [[nodiscard]] PackedSurfaceVertex pack_surface(const scene::Vertex& vertex);
 [[nodiscard]] PackedTextureVertex pack_texture(const scene::Vertex& vertex);
 

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include "client_renderer/billboard_painter.h"
+#include "client_renderer/culling.h"
 #include "client_renderer/draw_list.h"
 #include "client_renderer/frame_block.h"
 #include "client_renderer/gbuffer_pass.h"
@@ -91,7 +93,21 @@ public:
           resolve_{std::move(resolve)},
           frame_block_{gl::make_buffer(sizeof(shader::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT)} {
         state_.set_time(0.0);
-        draw_list_.emplace(scene_, state_);
+        placed_.emplace(scene_, state_);
+        culling_.emplace(*placed_, settings_.culling);
+        draw_list_.emplace(*placed_);
+    }
+
+    /// Makes the billboards of the settings, if any.
+    [[nodiscard]] Status add_billboards() {
+        if (settings_.billboards.mode == BillboardMode::off) return Done{};
+        const Status programs = gpu_scene_->add_billboard_programs(settings_.billboards.format);
+        if (!programs.ok()) return programs.error();
+        painter_.emplace(scene_, state_, *gpu_scene_);
+        auto field = BillboardField::create(scene_, *painter_, settings_.billboards, settings_.stage_clock);
+        if (!field.ok()) return field.error();
+        field_ = std::move(*field);
+        return Done{};
     }
 
     [[nodiscard]] Status warm_up() {
@@ -110,7 +126,7 @@ public:
     }
 
     void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) override {
-        counters_ = {};
+        begin_picture(camera, scene_time_s, 1);
         const RenderTargets& targets = render(camera, scene_time_s);
         download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
     }
@@ -118,7 +134,7 @@ public:
     void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) override {
         check_samples(samples_per_axis);
         if (samples_per_axis == 1) return draw(camera, scene_time_s, pixels);
-        counters_ = {};
+        begin_picture(camera, scene_time_s, samples_per_axis);
         if (!resolved_ || resolved_->colour.size_px() != camera.size_px) resolved_ = make_layer(camera.size_px);
         resolve(camera, scene_time_s, samples_per_axis, *resolved_);
         download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
@@ -126,7 +142,7 @@ public:
 
     TexturePixels draw_to_textures(const Camera& camera, double scene_time_s, int samples_per_axis) override {
         check_samples(samples_per_axis);
-        counters_ = {};
+        begin_picture(camera, scene_time_s, samples_per_axis);
         LayerTextures layer = make_layer(camera.size_px);
         if (samples_per_axis == 1) {
             const RenderTargets& targets = render(camera, scene_time_s);
@@ -143,6 +159,7 @@ public:
                            ColourImage& colour) override {
         check_samples(samples_per_axis);
         counters_ = {};
+        replace_by_billboards_ = false;
         colour.resize(camera.size_px);
         if (samples_per_axis == 1) {
             const RenderTargets& targets = render(camera, scene_time_s);
@@ -159,15 +176,44 @@ public:
         });
     }
 
+    void set_reveal_margin(double margin_m) override { culling_->set_reveal_margin(margin_m); }
+
+    void set_viewer_moves(bool moves) override { culling_->set_viewer_moves(moves); }
+
     void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) override {
         state_.set_time(scene_time_s);
         state_.mover_placements(transforms);
     }
 
+    void use_billboards(bool use) override { use_billboards_ = use; }
+    [[nodiscard]] const BillboardField* billboards() const override { return field_.get(); }
+
     [[nodiscard]] const DrawCounters& counters() const override { return counters_; }
 
 private:
     static constexpr int kWarmUpPx = 64;
+
+    // Before the tiles of a picture are drawn: billboards are chosen and updated once for all of them.
+    void begin_picture(const Camera& camera, double scene_time_s, int samples_per_axis) {
+        counters_ = {};
+        replace_by_billboards_ = use_billboards_ && field_ != nullptr;
+        if (!replace_by_billboards_) return;
+        state_.set_time(scene_time_s);
+        Camera whole = camera;
+        whole.size_px *= samples_per_axis;
+        field_->prepare(whole, state_);
+    }
+
+    /// Runs `stage` and adds its time to `ms` where stages are timed.
+    template <class Stage>
+    void timed(double& ms, Stage stage) {
+        if (settings_.stage_clock == nullptr) return stage();
+        glFinish();
+        const TimePoint begin = settings_.stage_clock->now();
+        stage();
+        glFinish();
+        ms += to_ms(settings_.stage_clock->now() - begin);
+    }
 
     static void copy(const gl::Texture& from, const gl::Texture& to) {
         glCopyImageSubData(from.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.id(), GL_TEXTURE_2D, 0, 0, 0, 0, to.size_px().x,
@@ -197,16 +243,65 @@ private:
     // One sample per pixel into the targets of this size; they are drawn over by the next call.
     const RenderTargets& render(const Camera& camera, double scene_time_s) {
         const RenderTargets& targets = targets_of(camera.size_px);
-        state_.set_time(scene_time_s);
-        draw_list_->build(state_, camera, gpu_scene_->parts(), settings_.cull);
+        decide_what_is_drawn(camera, scene_time_s);
         bind_frame(camera);
-        counters_.draw_calls += gbuffer_.draw(*draw_list_, targets);
-        lights_.build(scene_.point_lights, camera);
-        lighting_.draw(targets, lights_);
-        counters_.objects_tested += draw_list_->objects_tested();
+        timed(counters_.meshes_ms, [&] { counters_.draw_calls += gbuffer_.draw(*draw_list_, targets); });
+        if (replace_by_billboards_) {
+            timed(counters_.billboards_ms, [&] {
+                targets.gbuffer.bind();
+                field_->draw(camera);
+            });
+        }
+        timed(counters_.light_ms, [&] {
+            lights_.build(scene_.point_lights, camera);
+            lighting_.draw(targets, lights_);
+        });
+        return targets;
+    }
+
+    void decide_what_is_drawn(const Camera& camera, double scene_time_s) {
+        const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
+        state_.set_time(scene_time_s);
+        placed_->move(state_);
+        culling_->move();
+        const std::span<const std::uint32_t> visible = drawn_as_meshes(culling_->visible(camera));
+        ClusterUse clusters;
+        gpu_scene_->clusters().counters() = {};
+        if (settings_.culling.skip && settings_.culling.clusters) {
+            clusters = {&gpu_scene_->clusters(), culling_->cluster_view(camera)};
+        }
+        draw_list_->build(visible, camera, gpu_scene_->parts(), clusters);
+        if (settings_.clock != nullptr) counters_.culling += settings_.clock->now() - begin;
+        count_what_was_skipped();
+    }
+
+    // Without the instances that billboards stand for.
+    std::span<const std::uint32_t> drawn_as_meshes(std::span<const std::uint32_t> visible) {
+        if (!replace_by_billboards_) return visible;
+        const std::span<const std::uint8_t> replaced = field_->replaced();
+        meshes_.clear();
+        for (const std::uint32_t i : visible) {
+            const auto instance = static_cast<std::size_t>((*placed_)[i].instance - scene_.instances.data());
+            if (replaced[instance] == 0) meshes_.push_back(i);
+        }
+        return meshes_;
+    }
+
+    void count_what_was_skipped() {
+        const CullingCounters& objects = culling_->counters();
+        counters_.objects_tested += objects.tested;
+        counters_.objects_outside += objects.outside;
+        counters_.objects_behind_walls += objects.behind_walls;
+        counters_.objects_occluded += objects.occluded;
+        counters_.objects_too_small += objects.too_small;
         counters_.objects_drawn += draw_list_->objects_drawn();
         counters_.triangles_drawn += draw_list_->triangles_drawn();
-        return targets;
+        const ClusterCounters& clusters = gpu_scene_->clusters().counters();
+        counters_.clusters_tested += clusters.tested;
+        counters_.clusters_outside += clusters.outside;
+        counters_.clusters_turned_away += clusters.turned_away;
+        counters_.clusters_occluded += clusters.occluded;
+        counters_.clusters_too_small += clusters.too_small;
     }
 
     // Keeps the last three sizes: a run alternates between at most a source, its truth's tiles and a fresh view.
@@ -228,6 +323,9 @@ private:
     const scene::Scene& scene_;
     SceneRendererSettings settings_;
     scene::SceneState state_;
+    std::optional<PlacedInstances> placed_;
+    std::optional<Culling> culling_;
+    std::vector<std::uint32_t> meshes_;  // of the visible instances, those that no billboard stands for
     std::optional<DrawList> draw_list_;
     std::unique_ptr<GpuScene> gpu_scene_;
     GBufferPass gbuffer_;
@@ -237,6 +335,10 @@ private:
     std::optional<LayerTextures> resolved_;  ///< of the last size drawn with several samples
     LightTiles lights_;
     gl::Buffer frame_block_;
+    std::optional<BillboardPainter> painter_;
+    std::unique_ptr<BillboardField> field_;
+    bool use_billboards_ = false;
+    bool replace_by_billboards_ = false;  ///< in the picture being drawn
     std::vector<std::unique_ptr<RenderTargets>> targets_;
     DrawCounters counters_;
 };
@@ -255,6 +357,8 @@ Result<std::unique_ptr<SceneRenderer>> SceneRenderer::create(const scene::Scene&
     if (!resolve.ok()) return resolve.error();
     auto renderer = std::make_unique<DeferredSceneRenderer>(
         scene, settings, std::move(*gpu_scene), std::move(*lighting), std::move(*images), std::move(*resolve));
+    const Status billboards = renderer->add_billboards();
+    if (!billboards.ok()) return billboards.error();
     const Status warm = renderer->warm_up();
     if (!warm.ok()) return warm.error();
     return std::unique_ptr<SceneRenderer>{std::move(renderer)};

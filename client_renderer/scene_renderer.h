@@ -4,7 +4,10 @@
 #include <memory>
 #include <vector>
 
+#include "billboard_lod/billboard_field.h"
+#include "client_renderer/culling_settings.h"
 #include "core/camera.h"
+#include "core/clock.h"
 #include "core/image.h"
 #include "core/result.h"
 #include "frame_link/rendered_frame.h"
@@ -18,10 +21,27 @@ struct DrawCounters {
     std::uint64_t objects_drawn = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t draw_calls = 0;
+    std::uint64_t objects_outside = 0;       ///< skipped: not in the field of view
+    std::uint64_t objects_behind_walls = 0;  ///< skipped: no portal in view shows them
+    std::uint64_t objects_occluded = 0;      ///< skipped: hidden behind others
+    std::uint64_t objects_too_small = 0;     ///< skipped: below --min-pixels
+    std::uint64_t clusters_tested = 0;
+    std::uint64_t clusters_outside = 0;
+    std::uint64_t clusters_turned_away = 0;
+    std::uint64_t clusters_occluded = 0;
+    std::uint64_t clusters_too_small = 0;
+    Duration culling{};  ///< deciding what is drawn, with the draws for it; zero unless the settings have a clock
+    /// With a stage clock, each between two glFinish.
+    double meshes_ms = 0.0;
+    double billboards_ms = 0.0;  ///< drawing them; making and updating: BillboardCounters
+    double light_ms = 0.0;
 };
 
 struct SceneRendererSettings {
-    bool cull = true;  ///< leave out objects outside the field of view; off, the picture is the same and slower
+    CullingSettings culling;             ///< whatever it skips, the picture is the same
+    Clock* clock = nullptr;              ///< for DrawCounters::culling; outlives the renderer
+    BillboardSettings billboards{};      ///< mode off: none, whatever use_billboards() says
+    const Clock* stage_clock = nullptr;  ///< times the stages of every draw, at the cost of waiting for each
 };
 
 /// Belongs to one GL context and its thread: made, used and destroyed with that context current.
@@ -53,8 +73,23 @@ public:
     virtual void draw_supersampled(const Camera& camera, double scene_time_s, int samples_per_axis,
                                    ColourImage& colour) = 0;
 
+    /// From the next draw on, what is skipped as hidden is hidden from every eye within `margin_m` metres of the
+    /// camera's. It changes no pixel, only what the counters say.
+    virtual void set_reveal_margin(double margin_m) { (void)margin_m; }
+
+    /// From the next draw on: objects below the settings' min_pixels are left out while the viewer moves. Before the
+    /// first call it stands still.
+    virtual void set_viewer_moves(bool moves) { (void)moves; }
+
     /// Placements of the movers at a scene time.
     virtual void mover_placements(double scene_time_s, std::vector<ObjectTransform>& transforms) = 0;
+
+    /// Whether draw(), draw_resolved() and draw_to_textures() show far objects as billboards from now on; off at first,
+    /// so that truth and comparisons are meshes. With them a picture depends on those drawn before. Truth
+    /// (draw_supersampled) never shows any.
+    virtual void use_billboards(bool use) { static_cast<void>(use); }
+    /// Null without billboards in the settings.
+    [[nodiscard]] virtual const BillboardField* billboards() const { return nullptr; }
 
     [[nodiscard]] virtual const DrawCounters& counters() const = 0;  ///< of the last draw
 };

@@ -3,25 +3,55 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/placement_check.h"
+
 namespace lw {
 namespace {
 
 using EyeFromPx = Transform<SourceEye, SourcePx>;
 
-bool is_finite(const glm::dmat4& m) {
+// Sums of four terms with pixel coordinates up to 1e5 stay below the largest float, 3e38.
+constexpr double kLargestEntry = 1e30;
+
+bool fits_a_float(const glm::dmat4& m) {
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
-            if (!std::isfinite(m[column][row])) return false;
+            if (!(std::abs(m[column][row]) <= kLargestEntry)) return false;
         }
     }
     return true;
 }
 
-// World space shifted to the source eye: positions near the eye stay small numbers however far the eye is from the
+// How an object moves the world between two times. An object's origin may be 10,000 km from its surface, and both
+// placements are then large numbers whose difference counts: in double 5e-9 m of it would be lost, 0.01 px of something
+// 1 cm away under a lens of 10,000 px per unit tangent. One product per mover and picture, so its time does not matter.
+using Wide = long double;
+using WideMatrix = glm::mat<3, 3, Wide>;
+using WideVector = glm::vec<3, Wide>;
+
+// Axis by axis at length 1, so that neither scale nor a flat object costs digits. Invertible placements only.
+WideMatrix inverse_axes(const glm::dmat4& world_from_object) {
+    WideMatrix axes{glm::dmat3{world_from_object}};
+    WideVector length{1};
+    for (int axis = 0; axis < 3; ++axis) {
+        length[axis] = std::hypot(axes[axis].x, axes[axis].y, axes[axis].z);
+        axes[axis] /= length[axis];
+    }
+    WideMatrix rows = glm::transpose(glm::inverse(axes));  // column i: row i of the inverse
+    for (int axis = 0; axis < 3; ++axis) rows[axis] /= length[axis];
+    return glm::transpose(rows);
+}
+
+// Both worlds are shifted to the source eye: positions near the eye stay small numbers however far the eye is from the
 // world's origin.
-glm::dmat4 relative_to(const glm::dvec3& origin_world, glm::dmat4 world_from_local) {
-    world_from_local[3] -= glm::dvec4{origin_world, 0.0} * world_from_local[3].w;
-    return world_from_local;
+glm::dmat4 motion_about(const glm::dvec3& origin_world, const glm::dmat4& at_source, const glm::dmat4& at_target) {
+    const WideVector origin{origin_world};
+    const WideMatrix linear = WideMatrix{glm::dmat3{at_target}} * inverse_axes(at_source);
+    const WideVector shift =
+        (WideVector{glm::dvec3{at_target[3]}} - origin) - linear * (WideVector{glm::dvec3{at_source[3]}} - origin);
+    glm::dmat4 motion{glm::dmat3{linear}};
+    motion[3] = glm::dvec4{glm::dvec3{shift}, 1.0};
+    return motion;
 }
 
 Transform<TargetEye, World> target_eye_from_shifted_world(const Camera& source, const Camera& target) {
@@ -45,16 +75,13 @@ Transform<TargetPx, SourcePx> static_target_px_from_source_px(const Camera& sour
 std::optional<Transform<TargetPx, SourcePx>> mover_target_px_from_source_px(const Camera& source, const Camera& target,
                                                                             const glm::dmat4& at_source,
                                                                             const glm::dmat4& at_target) {
-    const glm::dvec3 origin = source.world_from_eye.position_m;
-    const Transform<World, Object> shifted_world_from_object_target{relative_to(origin, at_target)};
-    const Transform<World, Object> shifted_world_from_object_source{relative_to(origin, at_source)};
-    const Transform<Object, World> object_from_shifted_world = inverse(shifted_world_from_object_source);
+    if (!is_invertible_placement(at_source) || !is_placement(at_target)) return std::nullopt;
+    const Transform<World, World> motion{motion_about(source.world_from_eye.position_m, at_source, at_target)};
     const auto target_px_from_source_px =
         target_px_from_target_clip(target) * target_clip_from_target_eye(target) *
-        (target_eye_from_shifted_world(source, target) * shifted_world_from_object_target * object_from_shifted_world *
-         shifted_world_from_source_eye(source)) *
+        (target_eye_from_shifted_world(source, target) * motion * shifted_world_from_source_eye(source)) *
         source_eye_from_source_px(source);
-    if (!is_finite(target_px_from_source_px.matrix)) return std::nullopt;
+    if (!fits_a_float(target_px_from_source_px.matrix)) return std::nullopt;
     return target_px_from_source_px;
 }
 
@@ -76,7 +103,8 @@ void ReprojectionTable::build(const Camera& source, const Camera& target, std::s
 
     target_by_id_.assign(std::size_t{largest} + 1, nullptr);
     for (const ObjectTransform& object : at_target) {
-        if (object.id <= largest) target_by_id_[object.id] = &object.world_from_object;
+        const bool usable = object.id <= largest && is_placement(object.world_from_object);
+        if (usable) target_by_id_[object.id] = &object.world_from_object;
     }
 
     entries_.assign(std::size_t{largest} + 1, Entry{});

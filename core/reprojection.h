@@ -20,7 +20,8 @@ namespace lw {
 [[nodiscard]] Transform<TargetPx, SourcePx> static_target_px_from_source_px(const Camera& source, const Camera& target);
 
 /// The same for a mover that stood at `at_source` when the layer was drawn and stands at `at_target` at photon time.
-/// @return nothing when `at_source` is singular or a product is not finite. Pure, any thread.
+/// @return nothing when `at_source` is not invertible (is_invertible_placement()), when `at_target` is no placement, or
+/// when a product is beyond what a float holds. Pure, any thread.
 [[nodiscard]] std::optional<Transform<TargetPx, SourcePx>> mover_target_px_from_source_px(const Camera& source,
                                                                                           const Camera& target,
                                                                                           const glm::dmat4& at_source,
@@ -41,9 +42,9 @@ struct ReprojectedSample {
 /// The per-object matrices of one layer for one display frame, as a dense table over object ids.
 class ReprojectionTable {
 public:
-    /// `at_source` and `at_target` may be in any order. A mover without a target transform holds its source one; an id
-    /// without a (usable) source transform has no matrix. Object 0 always has one.
-    /// Reuses its memory: no allocation once the largest id was seen. One thread at a time.
+    /// `at_source` and `at_target` may be in any order. A mover without a (usable) target transform holds its source
+    /// one; an id without a (usable) source transform has no matrix. Object 0 always has one. Reuses its memory: no
+    /// allocation once the largest id was seen. One thread at a time.
     void build(const Camera& source, const Camera& target, std::span<const ObjectTransform> at_source,
                std::span<const ObjectTransform> at_target);
 

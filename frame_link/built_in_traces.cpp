@@ -170,15 +170,31 @@ HeadMotion shake_at(double time_s) {
     return {swell * glm::radians(angles_deg), swell * lean_m + sway_m(time_s)};
 }
 
+// A flight over many objects: back and up to an overview, down among them to a tight turn 50 m on, and back out again.
+// In the overview all is in view and far away; in the turn most is behind and the rest is near.
+HeadMotion dive_at(double time_s) {
+    const double up = minimum_jerk(time_s / 5.0);
+    const double down = minimum_jerk((time_s - 20.0) / 11.0);
+    const double out = minimum_jerk((time_s - 41.0) / 11.0);
+    const double turn_rad = 2.0 * kPi * minimum_jerk((time_s - 29.0) / 13.0);
+    const double inside = down - out;
+    constexpr double kTurnRadius_m = 2.5;
+    const glm::dvec3 circle_m = kTurnRadius_m * glm::dvec3{std::cos(turn_rad) - 1.0, 0.0, -std::sin(turn_rad)};
+    const glm::dvec3 overview_m{3.0 * minimum_jerk((time_s - 5.0) / 15.0), 13.0 * (up - inside), 27.0 * up};
+    const glm::dvec3 forward_m{0.0, 0.0, -77.0 * inside};
+    return {{turn_rad, glm::radians(-15.0 * (up - 0.8 * inside)), 0.0}, overview_m + forward_m + circle_m};
+}
+
 }  // namespace
 
-std::vector<std::string_view> built_in_trace_names() { return {"still", "look-around", "walk", "shake"}; }
+std::vector<std::string_view> built_in_trace_names() { return {"still", "look-around", "walk", "shake", "dive"}; }
 
 std::optional<Trace> built_in_trace(std::string_view name) {
     if (name == "still") return still();
     if (name == "look-around") return sampled("look-around", look_around_at);
     if (name == "walk") return walk();
     if (name == "shake") return sampled("shake", shake_at);
+    if (name == "dive") return sampled("dive", dive_at);
     return std::nullopt;
 }
 

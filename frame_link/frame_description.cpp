@@ -9,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "core/camera_check.h"
 #include "core/image_io.h"
 
 namespace lw {
@@ -19,7 +20,6 @@ using nlohmann::json;
 constexpr std::string_view kSchema = "latewarp.frame/1";
 constexpr std::size_t kMaxLayers = 256;
 constexpr int kMaxDepth = 32;            // of nested arrays; a frame needs 5
-constexpr double kMaxTangent = 1e4;      // 89.99 degrees
 constexpr double kMaxNumber = 1e12;      // metres and seconds beyond this are not meant
 constexpr double kUnitTolerance = 1e-3;  // three decimals, as people type quaternions
 constexpr std::string_view kMend = "see docs/formats.md for the format";
@@ -245,23 +245,6 @@ bool is_layer_name(std::string_view name) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_';
     };
     return !name.empty() && name.size() <= 64 && std::all_of(name.begin(), name.end(), allowed);
-}
-
-std::string_view problem_of(const Camera& camera) {
-    const FovTangents& fov = camera.fov;
-    for (const double tangent : {fov.left, fov.right, fov.down, fov.up}) {
-        if (!(std::abs(tangent) <= kMaxTangent)) return "a tangent in fov_tangents is not usable";
-    }
-    if (!(fov.left < fov.right && fov.down < fov.up)) return "fov_tangents are not in order left < right, down < up";
-    if (!(camera.near_m > 0.0 && camera.near_m <= kMaxNumber)) return "near_m is not above 0";
-    const glm::ivec2 size = camera.size_px;
-    if (size.x < 1 || size.y < 1 || size.x > kMaxImageSidePx || size.y > kMaxImageSidePx)
-        return "size_px is not usable";
-    const auto pose = sanitised(camera.world_from_eye);
-    if (!pose || std::abs(glm::length(camera.world_from_eye.orientation) - 1.0) > kUnitTolerance) {
-        return "world_from_eye is not a rigid pose";
-    }
-    return {};
 }
 
 Result<FrameDescription> parse_frame_description(std::string_view text, const std::string& where) {

@@ -36,10 +36,6 @@ struct FrameDescription {
 /// Layer names are also file names: 1-64 letters, digits, '-' and '_'. Pure.
 [[nodiscard]] bool is_layer_name(std::string_view name);
 
-/// What keeps a camera from being written or read, or nothing: finite numbers, left < right, down < up, near > 0,
-/// both sides of the size within 1..kMaxImageSidePx, a unit quaternion. Pure.
-[[nodiscard]] std::string_view problem_of(const Camera& camera);
-
 /// Reads and checks frame.json. `where` names it in errors. Pure.
 [[nodiscard]] Result<FrameDescription> parse_frame_description(std::string_view json, const std::string& where);
 

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "core/camera_check.h"
 #include "core/check.h"
 #include "core/image_io.h"
 #include "frame_link/frame_description.h"

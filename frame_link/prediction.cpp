@@ -5,6 +5,9 @@
 #include <span>
 
 #include "core/check.h"
+#include "frame_link/adaptive_motion.h"
+#include "frame_link/double_exponential.h"
+#include "frame_link/kalman_head_filter.h"
 #include "frame_link/velocity_fit.h"
 
 namespace lw {
@@ -48,7 +51,7 @@ public:
         if (is_short) count = feed.newest(now, samples_);
         const auto motion = fit_velocity({samples_.data(), count});
         if (!motion) return {Pose{}, now, 0};
-        const Duration ahead = std::clamp(target - motion->newest.time, -kVelocityWindow, kVelocityHorizon);
+        const Duration ahead = std::max(target - motion->newest.time, -kVelocityWindow);
         return {motion->pose_after(to_seconds(ahead)), motion->newest.time, motion->newest.number};
     }
 
@@ -57,16 +60,61 @@ private:
     std::array<PoseSample, 320> samples_;           // one window of a 10 kHz tracker, far above any that exists
 };
 
+/// A filter that is fed the sound samples of a stream in the order of time.
+template <class Filter>
+class FilterPredictor final : public HeadPosePredictor {
+public:
+    PredictedPose predict(const HeadPoseFeed& feed, TimePoint now, TimePoint target) override {
+        const std::uint64_t before = newest_number();
+        const auto fresh = stream_.advance(feed, now);
+        if (!stream_.newest()) return newest_usable(feed, now);
+        // The stream went back in time and began anew.
+        if (!fresh.empty() && fresh.front().number <= before) filter_ = Filter{};
+        for (const SoundSample& sample : fresh) filter_.add(sample);
+        const SoundSample& newest = *filter_.newest();
+        return {filter_.pose_after(std::max(target - newest.time, -kVelocityWindow)), newest.time, newest.number};
+    }
+
+private:
+    [[nodiscard]] std::uint64_t newest_number() const { return stream_.newest() ? stream_.newest()->number : 0; }
+
+    HeadSampleStream stream_;
+    Filter filter_;
+};
+
+template <class Predictor>
+std::unique_ptr<HeadPosePredictor> make() {
+    return std::make_unique<Predictor>();
+}
+
+struct PredictorEntry {
+    std::string_view name;
+    std::unique_ptr<HeadPosePredictor> (*make)();
+};
+constexpr std::array kPredictors{
+    PredictorEntry{"none", make<NoPredictor>},
+    PredictorEntry{"constant-velocity", make<ConstantVelocityPredictor>},
+    PredictorEntry{"double-exponential", make<FilterPredictor<DoubleExponential>>},
+    PredictorEntry{"kalman", make<FilterPredictor<KalmanHeadFilter>>},
+    PredictorEntry{"adaptive", make<FilterPredictor<AdaptiveMotion>>},
+    PredictorEntry{"oracle", make<OraclePredictor>},
+};
+
 }  // namespace
 
-std::vector<std::string_view> predictor_names() { return {"none", "constant-velocity", "oracle"}; }
+std::vector<std::string_view> predictor_names() {
+    std::vector<std::string_view> names;
+    for (const PredictorEntry& entry : kPredictors) names.push_back(entry.name);
+    return names;
+}
 
 Result<std::unique_ptr<HeadPosePredictor>> make_predictor(std::string_view name) {
-    using Made = std::unique_ptr<HeadPosePredictor>;
-    if (name == "none") return Made{std::make_unique<NoPredictor>()};
-    if (name == "constant-velocity") return Made{std::make_unique<ConstantVelocityPredictor>()};
-    if (name == "oracle") return Made{std::make_unique<OraclePredictor>()};
-    return Error{"unknown predictor", std::string{name}, "use none, constant-velocity or oracle"};
+    std::string known;
+    for (const PredictorEntry& entry : kPredictors) {
+        if (entry.name == name) return entry.make();
+        known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.name);
+    }
+    return Error{"unknown predictor", std::string{name}, "use one of " + known};
 }
 
 }  // namespace lw

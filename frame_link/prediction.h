@@ -27,17 +27,21 @@ public:
     [[nodiscard]] virtual PredictedPose predict(const HeadPoseFeed& feed, TimePoint now, TimePoint target) = 0;
 };
 
-/// How far ahead of the newest sample constant velocity is believed. Over the same recordings, 300 ms ahead, holding
-/// still from here on has a mean error of 6.3 degrees where going on has 7.4.
-inline constexpr Duration kVelocityHorizon = std::chrono::milliseconds{200};
-
 /// Names that make_predictor() accepts:
 /// - `none`: the newest sample as it is;
-/// - `constant-velocity`: linear and angular velocity of the last 30 ms, carried on from the newest sample; one wild
-///   sample in that time changes nothing. Beyond kVelocityHorizon after the newest sample the pose holds still;
+/// - `constant-velocity`: linear and angular velocity of the last 30 ms, carried on from the newest sample and dying
+///   away with the horizon (steady_span()); one wild sample in that time changes nothing;
+/// - `double-exponential`: DoubleExponential;
+/// - `kalman`: KalmanHeadFilter;
+/// - `adaptive`: AdaptiveMotion, the best on every recording (docs/latency.md has the table);
 /// - `oracle`: the recording's own pose at `target`. Its feed must be a ForeseeingHeadPoseFeed (programmer error
 ///   otherwise); `newest_sample` is still the newest one at `now`, so that latencies stay comparable.
+/// All but `none` and `constant-velocity` look at `now` only through what the feed has by then, and remember what they
+/// saw: ask them in the order of time.
 [[nodiscard]] std::vector<std::string_view> predictor_names();
 [[nodiscard]] Result<std::unique_ptr<HeadPosePredictor>> make_predictor(std::string_view name);
+
+/// What live runs and every client use unless told otherwise.
+inline constexpr std::string_view kDefaultPredictor = "adaptive";
 
 }  // namespace lw

@@ -47,7 +47,7 @@ private:
     std::vector<std::string> warnings_;
 };
 
-/// Built-in names: still, look-around, walk, shake. One minute each, deterministic, from (0, 1.6, 0) along -Z.
+/// Built-in names: still, look-around, walk, shake, dive. One minute each, deterministic, from (0, 1.6, 0) along -Z.
 [[nodiscard]] std::vector<std::string_view> built_in_trace_names();
 
 /// Heading of a pose: the yaw about +Y (radians, in (-pi, pi], 0 looks along -Z, positive to the left) of where it

@@ -89,9 +89,17 @@ Points gather(std::span<const PoseSample> samples, const PoseSample& newest, con
 
 }  // namespace
 
+double steady_span(double seconds) {
+    constexpr double kSteady_s = to_seconds(kSteadySpan);
+    constexpr double kDecay_s = to_seconds(kVelocityDecay);
+    if (seconds <= kSteady_s) return seconds;
+    return kSteady_s + kDecay_s * (1.0 - std::exp((kSteady_s - seconds) / kDecay_s));
+}
+
 Pose HeadMotionFit::pose_after(double seconds) const {
-    return {pose.position_m + velocity_m_per_s * seconds,
-            glm::normalize(pose.orientation * from_rotation_vector(velocity_rad_per_s_head * seconds))};
+    const double span_s = steady_span(seconds);
+    return {pose.position_m + velocity_m_per_s * span_s,
+            glm::normalize(pose.orientation * from_rotation_vector(velocity_rad_per_s_head * span_s))};
 }
 
 std::optional<HeadMotionFit> fit_velocity(std::span<const PoseSample> samples) {

@@ -13,6 +13,15 @@ namespace lw {
 /// 1 kHz), 30 ms predicts best at any horizon from 20 to 300 ms; 12 and 50 ms are 3-4 % worse.
 inline constexpr Duration kVelocityWindow = std::chrono::milliseconds{30};
 
+/// A velocity is believed in full for kSteadySpan, then it dies away by e over every kVelocityDecay more. Nobody turns
+/// for long: over the recordings, undiminished velocity 300 ms ahead has a larger mean error than holding still.
+inline constexpr Duration kSteadySpan = std::chrono::milliseconds{30};
+inline constexpr Duration kVelocityDecay = std::chrono::milliseconds{80};
+
+/// How many seconds' worth of velocity a horizon of `seconds` is: itself up to kSteadySpan and for the past, never more
+/// than kSteadySpan + kVelocityDecay. Pure, any thread.
+[[nodiscard]] double steady_span(double seconds);
+
 /// A pose and how it moves on.
 struct HeadMotionFit {
     PoseSample newest;                        ///< the newest usable sample
@@ -20,7 +29,7 @@ struct HeadMotionFit {
     glm::dvec3 velocity_m_per_s{0.0};         ///< world
     glm::dvec3 velocity_rad_per_s_head{0.0};  ///< rotation vector per second in the head's own frame
 
-    /// Carried on at constant velocity by `seconds`, which may be negative.
+    /// Carried on by `seconds`, which may be negative, at a velocity that dies away (steady_span()).
     [[nodiscard]] Pose pose_after(double seconds) const;
 };
 

@@ -6,8 +6,10 @@
 #include <cmath>
 #include <filesystem>
 
+#include "scene/chairs.h"
 #include "scene/city.h"
 #include "scene/gltf.h"
+#include "scene/rooms.h"
 
 namespace lw::scene {
 
@@ -24,6 +26,19 @@ constexpr std::array<WholeNumber, 3> kCityKeys{{
     {"buildings", 1.0, kMaxCityBuildings, 120.0},
     {"seed", 0.0, 4294967295.0, 1.0},
     {"movers", 0.0, 65535.0, 32.0},
+}};
+
+constexpr std::array<WholeNumber, 3> kRoomsKeys{{
+    {"rooms", 4.0, kMaxRooms, 240.0},
+    {"seed", 0.0, 4294967295.0, 1.0},
+    {"movers", 0.0, kMaxTrolleys, 8.0},
+}};
+
+constexpr std::array<WholeNumber, 4> kChairsKeys{{
+    {"chairs", 0.0, kMaxChairs, 500.0},
+    {"scooters", 0.0, kMaxChairs, 500.0},
+    {"movers", 0.0, 2.0 * kMaxChairs, 0.0},
+    {"seed", 0.0, 4294967295.0, 1.0},
 }};
 
 /// Checks that every key is known and every value a whole number in its range.
@@ -62,6 +77,25 @@ Result<Scene> make_city_of(const Parameters& parameters) {
     return make_city(city);
 }
 
+Result<Scene> make_rooms_of(const Parameters& parameters) {
+    const Status valid = validated("rooms", parameters, kRoomsKeys);
+    if (!valid.ok()) return valid.error();
+    return make_rooms({static_cast<int>(value_of(parameters, kRoomsKeys[0])),
+                       static_cast<int>(value_of(parameters, kRoomsKeys[2])),
+                       static_cast<std::uint64_t>(value_of(parameters, kRoomsKeys[1]))});
+}
+
+Result<Scene> make_chairs_of(const Parameters& parameters) {
+    const Status valid = validated("chairs", parameters, kChairsKeys);
+    if (!valid.ok()) return valid.error();
+    ChairsParameters chairs;
+    chairs.chairs = static_cast<int>(value_of(parameters, kChairsKeys[0]));
+    chairs.scooters = static_cast<int>(value_of(parameters, kChairsKeys[1]));
+    chairs.movers = static_cast<int>(value_of(parameters, kChairsKeys[2]));
+    chairs.seed = static_cast<std::uint64_t>(value_of(parameters, kChairsKeys[3]));
+    return make_chairs(chairs);
+}
+
 std::string names_of_built_in_scenes() {
     std::string names;
     for (const BuiltInScene& scene : built_in_scenes())
@@ -72,11 +106,16 @@ std::string names_of_built_in_scenes() {
 }  // namespace
 
 std::vector<BuiltInScene> built_in_scenes() {
-    return {{"city", "a town of instanced houses with trees, railings, wires and cars", "buildings, seed, movers"}};
+    return {{"city", "a town of instanced houses with trees, railings, wires and cars", "buildings, seed, movers"},
+            {"rooms", "an office building of furnished rooms, with doors and windows", "rooms, seed, movers"},
+            {"chairs", "curved chairs and scooters strewn over a floor, every one a full mesh",
+             "chairs, scooters, movers, seed"}};
 }
 
 Result<Scene> make_built_in(std::string_view name, const Parameters& parameters) {
     if (name == "city") return make_city_of(parameters);
+    if (name == "rooms") return make_rooms_of(parameters);
+    if (name == "chairs") return make_chairs_of(parameters);
     return Error{"no built-in scene has this name", std::string{name},
                  fmt::format("use one of {}", names_of_built_in_scenes())};
 }

@@ -1,6 +1,35 @@
 #include "warp_server/display_record.h"
 
+#include <algorithm>
+
 namespace lw {
+namespace {
+
+/// True if `b` is the worse of two strips of one refresh.
+bool is_worse(const DisplayRecord& a, const DisplayRecord& b) {
+    const auto rank = [](const DisplayRecord& record) {
+        if (!record.missed()) return 0;
+        return record.cause == MissCause::late_wakeup ? 1 : 2;
+    };
+    if (rank(a) != rank(b)) return rank(b) > rank(a);
+    return b.photon - b.pose_sampled > a.photon - a.pose_sampled;
+}
+
+}  // namespace
+
+std::vector<DisplayRecord> worst_strips(std::span<const DisplayRecord> strips, int count) {
+    const auto per_refresh = static_cast<std::uint64_t>(std::max(1, count));
+    std::vector<DisplayRecord> refreshes;
+    refreshes.reserve(strips.size() / per_refresh);
+    std::size_t first = 0;
+    while (first < strips.size() && strips[first].refresh % per_refresh != 0) ++first;
+    for (; first + per_refresh <= strips.size(); first += per_refresh) {
+        const auto of_refresh = strips.subspan(first, per_refresh);
+        refreshes.push_back(*std::max_element(of_refresh.begin(), of_refresh.end(), is_worse));
+        refreshes.back().refresh /= per_refresh;
+    }
+    return refreshes;
+}
 
 SeenLatencies seen_latencies(std::span<const DisplayRecord> records) {
     SeenLatencies seen;

@@ -19,13 +19,14 @@ enum class MissCause : std::uint8_t {
     late_wakeup,  ///< the machine woke the thread late or took its processor away; on time without that
 };
 
-/// One refresh of the display. Where no picture was made in time to even begin, `presented` stays unset and the times
-/// of the warp are those of the clock's zero.
+/// One refresh of the display, or one strip's share of it (next_slot()). Where no picture was made in time to even
+/// begin, `presented` stays unset and the times of the warp are those of the clock's zero.
 struct DisplayRecord {
     std::uint64_t refresh = 0;      ///< the display's count
     std::uint64_t frame_index = 0;  ///< rendered frame shown, 0 where no picture was made
     TimePoint frame_pose_sampled;   ///< head sample the frame's oldest layer was drawn for
     TimePoint pose_sampled;         ///< stamp of the newest head sample the picture was warped with
+    std::uint64_t pose_sample = 0;  ///< its number
     TimePoint planned_wake;
     TimePoint latched;
     TimePoint warp_begin;
@@ -41,6 +42,11 @@ struct DisplayRecord {
     [[nodiscard]] bool missed() const { return !presented || *presented > scanout_begin; }
     [[nodiscard]] Duration warp_time() const { return warp_end - warp_begin; }
 };
+
+/// One record per refresh from one per strip, which it takes the worst strip of: one that was missed, for the server's
+/// own fault before others, else the one with the oldest head sample at its photons. `refresh` becomes the display's
+/// count again. Refreshes at either end that lack strips are left out. Pure; with one strip a copy.
+[[nodiscard]] std::vector<DisplayRecord> worst_strips(std::span<const DisplayRecord> strips, int count);
 
 /// Ages of what a viewer saw, one entry per refresh at which there was a picture.
 struct SeenLatencies {

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "warp_server/fill_nearest_background.h"
+#include "warp_server/fill_pyramid.h"
 
 namespace lw {
 namespace {
@@ -11,11 +12,11 @@ class FillNone final : public Fill {
 public:
     [[nodiscard]] std::string_view name() const override { return "none"; }
 
-    void apply(DisplayFrame& frame) override {
+    void apply(DisplayFrame& frame, const FillGuide& /*guide*/) override {
         const std::span<Coverage> coverage = frame.coverage.pixels();
         for (std::size_t i = 0; i < coverage.size(); ++i) {
             if (coverage[i] != Coverage::hole) continue;
-            frame.colour.pixels()[i] = Rgba8{128, 128, 128, 255};
+            frame.colour.pixels()[i] = kNothingColour;
             frame.depth.pixels()[i] = 0.0F;
             coverage[i] = Coverage::filled;
         }
@@ -30,6 +31,7 @@ struct FillEntry {
 constexpr FillEntry kFills[] = {
     {"none", []() -> std::unique_ptr<Fill> { return std::make_unique<FillNone>(); }},
     {"nearest-background", make_nearest_background_fill},
+    {"pyramid", make_pyramid_fill},
 };
 
 }  // namespace

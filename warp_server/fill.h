@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/result.h"
+#include "warp_server/fill_guide.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
@@ -17,10 +18,15 @@ public:
     virtual ~Fill() = default;
     [[nodiscard]] virtual std::string_view name() const = 0;
     /// Gives every hole a colour and a depth and marks it Coverage::filled. Reached pixels stay as they are.
-    virtual void apply(DisplayFrame& frame) = 0;
+    /// No allocation once sizes are seen.
+    /// @param guide  of the motion from the layer to the frame
+    virtual void apply(DisplayFrame& frame, const FillGuide& guide) = 0;
 };
 
-/// none (holes become opaque mid grey, depth 0), nearest-background.
+/// Shown where nothing at all is known.
+inline constexpr Rgba8 kNothingColour{128, 128, 128, 255};
+
+/// none (holes become opaque mid grey, depth 0), nearest-background, pyramid.
 [[nodiscard]] std::vector<std::string_view> fill_names();
 [[nodiscard]] Result<std::unique_ptr<Fill>> make_fill(std::string_view name);
 

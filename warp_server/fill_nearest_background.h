@@ -8,7 +8,7 @@
 namespace lw {
 
 /// A hole opens between a foreground edge and the background that it uncovers, so of the two ends of a row (or column)
-/// of hole pixels the farther one continues it; of row and column the nearer end is taken. Cost grows with the holes,
+/// of hole pixels the farther one continues it; so does the farther one of row and column. Cost grows with the holes,
 /// not with the picture. Depends on this frame alone; equal frames give equal bytes.
 [[nodiscard]] std::unique_ptr<Fill> make_nearest_background_fill();
 

@@ -1,8 +1,11 @@
 #include "warp_server/frame_warper.h"
 
 #include <algorithm>
+#include <string>
 
+#include "core/camera_check.h"
 #include "core/check.h"
+#include "core/placement_check.h"
 #include "warp_server/methods/registry.h"
 
 namespace lw {
@@ -20,6 +23,14 @@ void merge_nearest(const DisplayFrame& layer, DisplayFrame& into) {
         into.depth.pixels()[i] = layer.depth.pixels()[i];
         into.coverage.pixels()[i] = Coverage::reached;
     }
+}
+
+// Before there was any picture.
+void show_nothing(glm::ivec2 size_px, DisplayFrame& frame) {
+    frame.resize(size_px);
+    std::fill(frame.colour.pixels().begin(), frame.colour.pixels().end(), Rgba8{0, 0, 0, 255});
+    std::fill(frame.depth.pixels().begin(), frame.depth.pixels().end(), 0.0F);
+    std::fill(frame.coverage.pixels().begin(), frame.coverage.pixels().end(), Coverage::filled);
 }
 
 }  // namespace
@@ -45,19 +56,31 @@ void FrameWarper::prepare(Layer& layer) const {
 
 const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarget& target) {
     LW_CHECK(!frame.layers.empty(), "a rendered frame has at least one layer");
-    if (is_made_of(frame, target)) {
+    held_ = {};
+    const WarpTarget usable = usable_target(frame, target);
+    if (is_made_of(frame, usable)) {
+        held_.bad_layer = made_.bad_layers;
         counters_.pictures_reused = 1;
         return display_frame_;
     }
-    method_->warp(*frame.layers.front(), target, display_frame_);
-    counters_ = method_->counters();
-    for (std::size_t i = 1; i < frame.layers.size(); ++i) {
-        method_->warp(*frame.layers[i], target, layer_frame_);
+    counters_ = {};
+    const Camera* first_camera = nullptr;
+    for (const auto& layer : frame.layers) {
+        if (!problem_of(layer->camera).empty()) {
+            ++held_.bad_layer;
+            continue;
+        }
+        method_->warp(*layer, usable, first_camera != nullptr ? layer_frame_ : display_frame_);
         counters_ += method_->counters();
-        merge_nearest(layer_frame_, display_frame_);
+        if (first_camera != nullptr) merge_nearest(layer_frame_, display_frame_);
+        if (first_camera == nullptr) first_camera = &layer->camera;
     }
-    fill_->apply(display_frame_);
-    remember(frame, target);
+    if (first_camera != nullptr) {
+        fill_->apply(display_frame_, fill_guide(*first_camera, usable.camera));
+    } else if (display_frame_.colour.size_px() != usable.camera.size_px) {
+        show_nothing(usable.camera.size_px, display_frame_);
+    }
+    remember(frame, usable);
     return display_frame_;
 }
 
@@ -74,6 +97,42 @@ void FrameWarper::remember(const RenderedFrame& frame, const WarpTarget& target)
     made_.layers.assign(frame.layers.begin(), frame.layers.end());
     made_.camera = target.camera;
     made_.movers.assign(target.movers.begin(), target.movers.end());
+    made_.bad_layers = held_.bad_layer;
+}
+
+WarpTarget FrameWarper::usable_target(const RenderedFrame& frame, const WarpTarget& target) {
+    WarpTarget usable = target;
+    Pose& pose = usable.camera.world_from_eye;
+    if (const std::optional<Pose> given = sanitised(pose)) {
+        pose = *given;
+        good_head_ = pose;
+    } else {
+        ++held_.bad_head_pose;
+        const Pose& drawn = frame.layers.front()->camera.world_from_eye;
+        pose = good_head_.value_or(sanitised(drawn).value_or(Pose{}));
+    }
+    const std::string_view problem = problem_of(usable.camera);
+    LW_CHECK(problem.empty(), "a display that cannot be: " + std::string{problem});
+    hold_placements(target.movers);
+    usable.movers = usable_movers_;
+    return usable;
+}
+
+// Both lists are by ascending id, as feeds give them; what is out of order is looked for in vain and not held.
+void FrameWarper::hold_placements(std::span<const ObjectTransform> movers) {
+    usable_movers_.clear();
+    std::size_t held = 0;
+    for (const ObjectTransform& mover : movers) {
+        while (held < good_movers_.size() && good_movers_[held].id < mover.id) ++held;
+        const bool known = held < good_movers_.size() && good_movers_[held].id == mover.id;
+        if (is_placement(mover.world_from_object)) {
+            usable_movers_.push_back(mover);
+            continue;
+        }
+        ++held_.bad_placement;
+        if (known) usable_movers_.push_back(good_movers_[held]);
+    }
+    good_movers_ = usable_movers_;
 }
 
 }  // namespace lw

@@ -2,7 +2,10 @@
 /// One display frame: warp method, then fill, with the time each took. What the live server, replay and the command
 /// line all call.
 
+#include <cstdint>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -12,6 +15,20 @@
 #include "warp_server/warp_method.h"
 
 namespace lw {
+
+/// Input that could not be used, by kind; it is passed over, never fatal.
+struct HeldInput {
+    std::uint64_t bad_head_pose = 0;  ///< pictures whose head pose was none: the last good one held
+    std::uint64_t bad_placement = 0;  ///< movers whose placement at photon time was none: their last good one held
+    std::uint64_t bad_layer = 0;      ///< layers whose camera was none: left out
+
+    HeldInput& operator+=(const HeldInput& other) {
+        bad_head_pose += other.bad_head_pose;
+        bad_placement += other.bad_placement;
+        bad_layer += other.bad_layer;
+        return *this;
+    }
+};
 
 class FrameWarper {
 public:
@@ -24,23 +41,41 @@ public:
     /// Runs prepare and stores the result in the layer (client's thread, before publishing).
     void prepare(Layer& layer) const;
 
-    /// Warps and fills. `frame` has at least one layer. The result is valid until the next call. Server thread.
-    /// The same layers at the same poses are the same picture: it is shown again, whatever the method.
+    /// Warps and fills. `frame` has at least one layer; size, field of view and near plane of the target are usable
+    /// (programmer errors otherwise). A head pose that is none (not finite, no direction) is replaced by the last good
+    /// one, or by the first layer's before there was one; a mover's placement that is none by its last good one; a
+    /// layer whose camera is none is left out, and when no layer is left the picture shown before is shown again. All
+    /// of that is counted. The same layers at the same poses are the same picture: it is shown again, whatever the
+    /// method. The result is valid until the next call. Server thread.
     const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target);
 
-    [[nodiscard]] const WarpMethod& method() const { return *method_; }
-    /// Of the last warp(), all layers together.
+    /// What the last warp left out, over all layers.
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
+    /// What else of its input could not be used.
+    [[nodiscard]] const HeldInput& held() const { return held_; }
+    /// The picture of the last warp().
+    [[nodiscard]] const DisplayFrame& display_frame() const { return display_frame_; }
+    /// The same, to write over it what belongs to the display and not to the scene (photon codes, an overlay). It is
+    /// not shown again after that.
+    [[nodiscard]] DisplayFrame& display_frame_to_write_over() {
+        made_.layers.clear();
+        return display_frame_;
+    }
+
+    [[nodiscard]] const WarpMethod& method() const { return *method_; }
     /// Share of unreached pixels of the last frame, before fill. Computed on demand from its coverage.
     [[nodiscard]] double hole_fraction() const { return lw::hole_fraction(display_frame_); }
 
 private:
+    [[nodiscard]] WarpTarget usable_target(const RenderedFrame& frame, const WarpTarget& target);
+    void hold_placements(std::span<const ObjectTransform> movers);
     // What the last picture was made of. Layers by their weak pointers: an address may come again, and the last
     // reference to a layer belongs to the client.
     struct Made {
         std::vector<std::weak_ptr<const Layer>> layers;
         Camera camera;
         std::vector<ObjectTransform> movers;
+        std::uint64_t bad_layers = 0;
     };
     [[nodiscard]] bool is_made_of(const RenderedFrame& frame, const WarpTarget& target) const;
     void remember(const RenderedFrame& frame, const WarpTarget& target);
@@ -49,8 +84,12 @@ private:
     std::unique_ptr<Fill> fill_;
     DisplayFrame display_frame_;
     Made made_;
-    WarpCounters counters_;
     DisplayFrame layer_frame_;  // scratch: second and further layers before they are merged
+    WarpCounters counters_;
+    HeldInput held_;
+    std::optional<Pose> good_head_;
+    std::vector<ObjectTransform> good_movers_;    // by ascending id: the last usable placement of each
+    std::vector<ObjectTransform> usable_movers_;  // of this picture
 };
 
 }  // namespace lw

@@ -21,8 +21,9 @@ PacerPlan Pacer::next_wake(TimePoint now, const Refresh& next) const {
 
 Duration Pacer::lead(Duration period) const {
     if (settings_.fixed_lead) return *settings_.fixed_lead;
-    if (work_count_ < kEnough) return from_seconds(kUnlearntLead * to_seconds(period));
-    return std::min(slow_work_ + margin_, period);
+    const Duration longest = period * settings_.longest_lead_periods;
+    if (work_count_ < kEnough) return from_seconds(kUnlearntLead * to_seconds(longest));
+    return std::min(slow_work_ + margin_, longest);
 }
 
 void Pacer::finished(const PacerOutcome& outcome) {
@@ -34,7 +35,7 @@ void Pacer::finished(const PacerOutcome& outcome) {
     const bool missed = outcome.presented > outcome.refresh.scanout_begin;
     const Duration change = missed ? settings_.miss_step : -settings_.miss_step / kHitsPerMiss;
     margin_ = std::clamp(margin_ + change, settings_.smallest_margin,
-                         std::max(settings_.smallest_margin, outcome.refresh.period));
+                         std::max(settings_.smallest_margin, outcome.refresh.period * settings_.longest_lead_periods));
 }
 
 Duration Pacer::work_quantile(double quantile) const {

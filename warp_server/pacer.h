@@ -17,6 +17,9 @@ struct PacerSettings {
     std::optional<Duration> fixed_lead;
     /// The lead never falls below the learnt work time plus this much.
     Duration smallest_margin = from_ms(0.3);
+    /// The lead is at most so many periods: 1 for whole pictures, since an earlier one would overtake the one before;
+    /// strips may be made as many slots ahead as a refresh has.
+    int longest_lead_periods = 1;
     /// What a missed refresh adds to the margin.
     Duration miss_step = from_ms(0.5);
 };
@@ -50,7 +53,8 @@ public:
     /// run at most one refresh in kHitsPerMiss is spent on finding out how late is too late.
     void finished(const PacerOutcome& outcome);
 
-    /// Time from waking to scan-out that next_wake() uses for a display of this period. At most one period.
+    /// Time from waking to scan-out that next_wake() uses for a display of this period. At most
+    /// `longest_lead_periods` of them.
     [[nodiscard]] Duration lead(Duration period) const;
 
     /// The work ordinarily takes longer than a period of this length: not every refresh can get a picture.

@@ -19,6 +19,10 @@ public:
 
     [[nodiscard]] Refresh next_refresh(TimePoint now) const override { return display_.next_refresh(now); }
     void present(const DisplayFrame& frame, const Refresh& refresh) override;
+    /// Handed on; strips are not written.
+    void present_strip(const DisplayFrame& strip, const Refresh& slot, const Strip& place) override {
+        display_.present_strip(strip, slot, place);
+    }
     [[nodiscard]] bool closed() const override { return display_.closed(); }
 
     /// The first error of writing; nothing is written after it.

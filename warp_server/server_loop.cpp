@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "warp_server/photon_code.h"
+
 namespace lw {
 namespace {
 
@@ -25,7 +27,7 @@ void ServerLoop::run() {
 void ServerLoop::show_next() {
     // A refresh gets one picture: after an early one, the next refresh is the one after it.
     const TimePoint now = parts_.clock.now();
-    const Refresh next = parts_.presenter.next_refresh(std::max(now, last_refresh_.scanout_begin));
+    const Refresh next = next_slot(parts_.presenter, std::max(now, last_refresh_.scanout_begin), settings_.strips);
     const PacerPlan plan = pacer_.next_wake(now, next);
     if (has_shown_) record_passed_over(plan.refresh);
     last_refresh_ = plan.refresh;
@@ -38,7 +40,7 @@ void ServerLoop::show_next() {
         warm_up(*frame, plan.refresh);
         has_shown_ = true;
         // What the warm-up took is nobody's miss: counting begins with the next refresh.
-        last_refresh_ = parts_.presenter.next_refresh(parts_.clock.now());
+        last_refresh_ = next_slot(parts_.presenter, parts_.clock.now(), settings_.strips);
         return;
     }
     if (timing.woken >= plan.refresh.scanout_begin) {
@@ -53,7 +55,7 @@ void ServerLoop::show_next() {
 void ServerLoop::warm_up(const RenderedFrame& frame, const Refresh& refresh) {
     for (int i = 0; i < kWarmUpWarps; ++i) {
         const PredictedPose head = head_at(parts_.clock.now(), refresh.photon());
-        parts_.warper.warp(frame, target_at(head.world_from_head, refresh.photon()));
+        parts_.warper.warp(frame, target_at(head.world_from_head, refresh));
     }
 }
 
@@ -69,22 +71,28 @@ void ServerLoop::make_picture(const RenderedFrame& frame, const PacerPlan& plan,
 
     const PredictedPose head = head_at(timing.woken, record.photon);
     record.pose_sampled = head.newest_sample;
+    record.pose_sample = head.sample_number;
     record.world_from_head = head.world_from_head;
-    const WarpTarget target = target_at(head.world_from_head, record.photon);
+    const WarpTarget target = target_at(head.world_from_head, plan.refresh);
 
     record.warp_begin = parts_.clock.now();
-    const DisplayFrame& picture = parts_.warper.warp(frame, target);
+    parts_.warper.warp(frame, target);
     record.warp_end = parts_.clock.now();
     record.counters = parts_.warper.counters();
+    held_ += parts_.warper.held();
 
-    parts_.presenter.present(picture, plan.refresh);
+    if (settings_.photon_codes) {
+        write_photon_code(parts_.warper.display_frame_to_write_over().colour, 0, target.camera.size_px.y,
+                          {static_cast<std::uint32_t>(record.pose_sample), static_cast<std::uint16_t>(frame.index)});
+    }
+    present(plan.refresh);
     record.presented = parts_.clock.now();
     record.cause = cause_of(record, timing);
 
     if (frame.index != last_frame_index_) ++frames_shown_;
     last_frame_index_ = frame.index;
     pacer_.finished({plan.refresh, plan.wake, *record.presented});
-    records_.push_back(record);
+    write_down(record);
 }
 
 PredictedPose ServerLoop::head_at(TimePoint now, TimePoint photon) {
@@ -98,10 +106,23 @@ PredictedPose ServerLoop::head_at(TimePoint now, TimePoint photon) {
     return last_good_head_;
 }
 
-WarpTarget ServerLoop::target_at(const Pose& world_from_head, TimePoint photon) {
-    parts_.movers.placements_at(photon, movers_);
+Strip ServerLoop::strip_of(const Refresh& slot) const {
+    const auto strips = static_cast<std::uint64_t>(settings_.strips);
+    return strip_at(static_cast<int>(slot.number % strips), settings_.strips, settings_.camera.size_px.y);
+}
+
+void ServerLoop::present(const Refresh& slot) {
+    if (settings_.strips == 1) {
+        parts_.presenter.present(parts_.warper.display_frame(), slot);
+    } else {
+        parts_.presenter.present_strip(parts_.warper.display_frame(), slot, strip_of(slot));
+    }
+}
+
+WarpTarget ServerLoop::target_at(const Pose& world_from_head, const Refresh& slot) {
+    parts_.movers.placements_at(slot.photon(), movers_);
     WarpTarget target;
-    target.camera = settings_.camera;
+    target.camera = camera_of(settings_.camera, strip_of(slot));
     target.camera.world_from_eye = world_from_head;
     target.movers = movers_;
     return target;
@@ -128,7 +149,12 @@ void ServerLoop::record_without_picture(const Refresh& refresh, TimePoint planne
     record.scanout_begin = refresh.scanout_begin;
     record.photon = refresh.photon();
     record.cause = cause;
+    write_down(record);
+}
+
+void ServerLoop::write_down(const DisplayRecord& record) {
     records_.push_back(record);
+    if (settings_.on_record) settings_.on_record(record);
 }
 
 MissCause ServerLoop::cause_of(const DisplayRecord& record, const Timing& timing) const {

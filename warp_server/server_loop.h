@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/clock.h"
@@ -14,7 +15,7 @@
 #include "warp_server/display_record.h"
 #include "warp_server/frame_warper.h"
 #include "warp_server/pacer.h"
-#include "warp_server/presenter.h"
+#include "warp_server/steady_refreshes.h"
 
 namespace lw {
 
@@ -33,7 +34,14 @@ struct ServerParts {
 struct ServerSettings {
     Camera camera;  ///< size, field of view and near plane of the display; its pose is ignored
     PacerSettings pacer;
-    /// Refreshes that can be written down before memory grows: the run's length times the display's rate.
+    /// The picture is made in so many horizontal strips, each just ahead of its share of a rolling scan-out, with a
+    /// pose and a photon time of its own. 1: whole.
+    int strips = 1;
+    /// Write a PhotonCode into the corner of every picture, or of every strip.
+    bool photon_codes = false;
+    /// Called on the server's thread after every record; may be empty. What it does counts as the server's own work.
+    std::function<void(const DisplayRecord&)> on_record;
+    /// Refreshes (with strips: strips) that can be written down before memory grows: the run's length times their rate.
     std::size_t reserved_refreshes = 4096;
     /// Processor time of the calling thread, to tell own work from time that the machine took away; null where the work
     /// is not the thread's own (a GL method waits for the GPU).
@@ -55,10 +63,13 @@ public:
     /// Any thread, and a signal handler.
     void request_stop() { stop_.store(true, std::memory_order_relaxed); }
 
-    /// One per refresh since the first picture, ascending, none left out. After run() has returned.
+    /// One per refresh since the first picture, ascending, none left out; with strips one for each of them
+    /// (worst_strips() makes refreshes of them). After run() has returned.
     [[nodiscard]] const std::vector<DisplayRecord>& records() const { return records_; }
     /// Refreshes whose predicted head pose was not finite: the last good one was shown again.
     [[nodiscard]] std::uint64_t bad_head_poses() const { return bad_head_poses_; }
+    /// What else could not be used, over all pictures.
+    [[nodiscard]] const HeldInput& held() const { return held_; }
     /// Rendered frames that were shown at least once.
     [[nodiscard]] std::uint64_t frames_shown() const { return frames_shown_; }
 
@@ -74,10 +85,13 @@ private:
     void make_picture(const RenderedFrame& frame, const PacerPlan& plan, const Timing& timing);
     /// Head pose predicted to photon time; the last good one if it is unusable.
     [[nodiscard]] PredictedPose head_at(TimePoint now, TimePoint photon);
-    [[nodiscard]] WarpTarget target_at(const Pose& world_from_head, TimePoint photon);
+    [[nodiscard]] WarpTarget target_at(const Pose& world_from_head, const Refresh& slot);
+    [[nodiscard]] Strip strip_of(const Refresh& slot) const;
+    void present(const Refresh& slot);
     /// Writes down the refreshes before `number` that no picture was aimed at.
     void record_passed_over(const Refresh& aimed_at);
     void record_without_picture(const Refresh& refresh, TimePoint planned_wake, MissCause cause);
+    void write_down(const DisplayRecord& record);
     [[nodiscard]] MissCause cause_of(const DisplayRecord& record, const Timing& timing) const;
     [[nodiscard]] Duration cpu_time() const {
         return settings_.thread_cpu_time != nullptr ? settings_.thread_cpu_time() : Duration{};
@@ -94,6 +108,7 @@ private:
     std::vector<ObjectTransform> movers_;
     PredictedPose last_good_head_;
     std::uint64_t bad_head_poses_ = 0;
+    HeldInput held_;
     std::uint64_t frames_shown_ = 0;
     std::uint64_t last_frame_index_ = 0;
 };

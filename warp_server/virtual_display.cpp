@@ -1,34 +1,43 @@
 #include "warp_server/virtual_display.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "core/check.h"
 
 namespace lw {
 
 VirtualDisplay::VirtualDisplay(TimePoint start, double hz, glm::ivec2 size_px)
-    : start_{start}, hz_{hz}, picture_{size_px, Rgba8{0, 0, 0, 255}} {
+    : refreshes_{start, hz}, picture_{size_px, Rgba8{0, 0, 0, 255}} {
     LW_CHECK(hz >= 1.0 && hz <= 1000.0, fmt::format("{} Hz", hz));
 }
 
-TimePoint VirtualDisplay::scanout_begin(std::uint64_t number) const {
-    return start_ + from_seconds(static_cast<double>(number) / hz_);
-}
-
-Refresh VirtualDisplay::next_refresh(TimePoint now) const {
-    const double refreshes_since_start = std::max(0.0, std::floor(to_seconds(now - start_) * hz_));
-    auto number = static_cast<std::uint64_t>(refreshes_since_start);
-    // The product may round either way at the boundary; the first one after now is what counts.
-    while (scanout_begin(number) <= now) ++number;
-    while (number > 0 && scanout_begin(number - 1) > now) --number;
-    return {number, scanout_begin(number), scanout_begin(number + 1) - scanout_begin(number)};
-}
+Refresh VirtualDisplay::next_refresh(TimePoint now) const { return refreshes_.after(now); }
 
 void VirtualDisplay::present(const DisplayFrame& frame, const Refresh& refresh) {
     picture_.resize(frame.colour.size_px());
     std::ranges::copy(frame.colour.pixels(), picture_.pixels().begin());
     picture_refresh_ = refresh;
+    if (watch_) watch_->changed(picture_, {0, 1, 0, picture_.height()}, clock_->now());
+}
+
+void VirtualDisplay::present_strip(const DisplayFrame& strip, const Refresh& slot, const Strip& place) {
+    LW_CHECK(strip.colour.width() == picture_.width() && place.top_px + place.height_px <= picture_.height(),
+             "a strip of another display");
+    const auto offset = static_cast<std::ptrdiff_t>(place.top_px) * picture_.width();
+    std::ranges::copy(strip.colour.pixels(), picture_.pixels().begin() + offset);
+    picture_refresh_ = slot;
+    if (watch_) watch_->changed(picture_, place, clock_->now());
+}
+
+void VirtualDisplay::watch_photons(const Clock& clock, const PhotonWatchSettings& settings) {
+    clock_ = &clock;
+    watch_ = std::make_unique<PhotonWatch>(refreshes_, settings);
+}
+
+std::span<const SeenPart> VirtualDisplay::seen() {
+    if (!watch_) return {};
+    watch_->scan_until(clock_->now());
+    return watch_->seen();
 }
 
 }  // namespace lw

@@ -1,8 +1,9 @@
-/// Time of every CPU warp method and its preparation, beside a memcpy of the colour and depth they read.
+/// Time of every warp method and its preparation, beside a memcpy of the colour and depth they read; of two threads
+/// over one; and of the fills. GL methods are there where a GL context is.
 ///
 /// Frames take turns, as they do live: neither the copy nor the warp finds its source in the cache. Each time is the
 /// median of its repeats, taken in turns with the copies of the same run; memcpy_ratio is the quotient of the medians.
-/// Methods are first checked: a still head must show the source.
+/// CPU methods are first checked: a still head must show the source.
 
 #include <benchmark/benchmark.h>
 
@@ -14,6 +15,7 @@
 
 #include "bench/warp_server/half_covered_layer.h"
 #include "core/check.h"
+#include "gl/context.h"
 #include "warp_server/fill.h"
 #include "warp_server/methods/registry.h"
 
@@ -73,9 +75,22 @@ void measure(benchmark::State& state, const std::function<void(std::size_t)>& wo
     state.counters["memcpy_ratio"] = quantile(work_ms, 0.5) / quantile(copy_ms, 0.5);
 }
 
+// Made current on the benchmark's only thread at the first call; null where there is no GL.
+gl::Context* gl_context() {
+    static const std::unique_ptr<gl::Context> made = [] {
+        auto context = gl::Context::create();
+        if (!context) return std::unique_ptr<gl::Context>{};
+        (*context)->make_current();
+        return std::move(*context);
+    }();
+    return made.get();
+}
+
 std::unique_ptr<WarpMethod> checked_method(const std::string& specification) {
     Result<std::unique_ptr<WarpMethod>> method = make_warp_method(specification);
     LW_CHECK(method.ok(), method.ok() ? std::string{} : method.error().message());
+    // On GL a footprint may round up to the next pixel; by how much is the business of the methods' tests.
+    if (find_warp_method(specification)->needs_gl) return std::move(*method);
     DisplayFrame frame;
     const Layer& layer = layers().front();
     (*method)->warp(layer, {layer.camera, layer.movers}, frame);
@@ -103,6 +118,45 @@ void prepare(benchmark::State& state, const std::string& specification) {
     measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(method->prepare(layers()[i])); });
 }
 
+// One and two threads in turns: what disturbs the machine disturbs both.
+void two_threads(benchmark::State& state, const std::string& name) {
+    const std::unique_ptr<WarpMethod> methods[2] = {checked_method(name), checked_method(name + ":threads=2")};
+    std::vector<Layer> prepared;
+    for (std::size_t i = 0; i < kFrames; ++i) {
+        prepared.push_back(half_covered_layer(kSize_px, kMovers));
+        for (const auto& method : methods) {
+            if (auto ready = method->prepare(prepared[i])) {
+                prepared[i].prepared.emplace_back(std::string{method->label()}, std::move(ready));
+            }
+        }
+    }
+    const std::vector<ObjectTransform> movers = moved_objects(prepared[0]);
+    const WarpTarget target{moved_head(prepared[0].camera), movers};
+    DisplayFrame frames[2];
+    std::vector<double> took_ms[2];
+    const auto warp_both = [&](std::size_t turn) {
+        for (const std::size_t which : {0u, 1u}) {
+            const Layer& layer = prepared[(turn + 2 * which) % kFrames];
+            took_ms[which].push_back(milliseconds([&] { methods[which]->warp(layer, target, frames[which]); }));
+        }
+    };
+    for (std::size_t warm_up = 0; warm_up < kFrames; ++warm_up) warp_both(warm_up);
+    for (auto& times : took_ms) times.clear();
+    std::size_t turn = 0;
+    for (auto _ : state) {
+        warp_both(turn++);
+        state.SetIterationTime(took_ms[1].back() * 1e-3);
+    }
+    state.counters["one_thread_ms"] = quantile(took_ms[0], 0.5);
+    state.counters["two_threads_ms"] = quantile(took_ms[1], 0.5);
+    state.counters["speed_up"] = quantile(took_ms[0], 0.5) / quantile(took_ms[1], 0.5);
+}
+
+void copy(benchmark::State& state) {
+    CpuPixels target{ColourImage{kSize_px}, DepthImage{kSize_px}, {}};
+    measure(state, [&](std::size_t i) { copy_pixels(layers()[i].cpu(), target); });
+}
+
 void fill(benchmark::State& state, const std::string& name) {
     const auto method = checked_method("splat");
     const Camera camera = moved_head(layers()[0].camera);
@@ -114,7 +168,7 @@ void fill(benchmark::State& state, const std::string& name) {
     const Image<Coverage> coverage = frames[0].coverage;
     measure(state, [&](std::size_t i) {
         std::memcpy(frames[i].coverage.pixels().data(), coverage.pixels().data(), coverage.size_bytes());
-        (*made)->apply(frames[i]);
+        (*made)->apply(frames[i], fill_guide(layers()[0].camera, camera));
     });
 }
 
@@ -122,15 +176,19 @@ void register_all() {
     const auto add = [](const std::string& name, const std::function<void(benchmark::State&)>& run) {
         benchmark::RegisterBenchmark(name.c_str(), run)->UseManualTime()->Iterations(41)->Unit(benchmark::kMillisecond);
     };
+    add("memcpy", copy);
     for (const MethodEntry& entry : warp_methods()) {
-        if (entry.needs_gl || entry.name == "reference") continue;
+        if (entry.name == "reference" || (entry.needs_gl && gl_context() == nullptr)) continue;
         const std::string name{entry.name};
         add("warp/" + name, [name](benchmark::State& state) { warp(state, name); });
         if (entry.settings.find("threads") == std::string_view::npos) continue;
         add("warp/" + name + ":threads=2", [name](benchmark::State& state) { warp(state, name + ":threads=2"); });
+        add("two_threads_over_one/" + name, [name](benchmark::State& state) { two_threads(state, name); });
     }
     add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });
-    add("fill/nearest-background", [](benchmark::State& state) { fill(state, "nearest-background"); });
+    for (const std::string name : {"nearest-background", "pyramid"}) {
+        add("fill/" + name, [name](benchmark::State& state) { fill(state, name); });
+    }
 }
 
 }  // namespace

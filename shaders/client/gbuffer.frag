@@ -24,10 +24,17 @@ layout(binding = kUnitNormal) uniform sampler2D u_normal;
 layout(binding = kUnitEmissive) uniform sampler2D u_emissive;
 #endif
 
+#ifdef PACKED
+#include "billboards/packed_surface.glsl"
+layout(location = 0) out uvec2 o_packed;
+#else
 layout(location = 0) out vec4 o_albedo_roughness;
 layout(location = 1) out vec2 o_normal;
 layout(location = 2) out vec4 o_emissive_metallic;
+#ifndef BILLBOARD
 layout(location = 3) out uint o_object_id;
+#endif
+#endif
 
 #ifdef TEXTURED
 vec2 uv_of(int unit) {
@@ -79,8 +86,17 @@ void main() {
 #endif
 
     // Square roots spend the 8 bits about as evenly as the eye does, and are cheap.
-    o_albedo_roughness = vec4(sqrt(clamp(base_colour.rgb, 0.0, 1.0)), metallic_roughness.y);
-    o_normal = octahedral_from_unit(normal) * 0.5 + 0.5;
-    o_emissive_metallic = vec4(sqrt(clamp(emissive, 0.0, 1.0)), metallic_roughness.x);
+    vec4 albedo_roughness = vec4(sqrt(clamp(base_colour.rgb, 0.0, 1.0)), metallic_roughness.y);
+    vec2 stored_normal = octahedral_from_unit(normal) * 0.5 + 0.5;
+    vec4 emissive_metallic = vec4(sqrt(clamp(emissive, 0.0, 1.0)), metallic_roughness.x);
+#ifdef PACKED
+    o_packed = packed_surface(albedo_roughness, stored_normal, emissive_metallic);
+#else
+    o_albedo_roughness = albedo_roughness;
+    o_normal = stored_normal;
+    o_emissive_metallic = emissive_metallic;
+#ifndef BILLBOARD
     o_object_id = v_object_id;
+#endif
+#endif
 }

@@ -1,5 +1,6 @@
 #version 450 core
 #include "client_blocks.h"
+#include "billboard_blocks.h"
 
 layout(location = kAttributePosition) in vec3 a_position_object;
 layout(location = kAttributeNormal) in vec4 a_normal_object;
@@ -7,6 +8,12 @@ layout(location = kAttributeRow0) in vec4 a_row0;
 layout(location = kAttributeRow1) in vec4 a_row1;
 layout(location = kAttributeRow2) in vec4 a_row2;
 layout(location = kAttributeObjectId) in uint a_object_id;
+
+#ifdef BILLBOARD
+layout(location = kAttributeViewX) in vec4 a_view_x;
+layout(location = kAttributeViewY) in vec4 a_view_y;
+layout(location = kAttributeViewW) in vec4 a_view_w;
+#endif
 
 out vec3 v_normal_relative;
 flat out uint v_object_id;
@@ -27,8 +34,15 @@ void main() {
     vec4 position_object = vec4(a_position_object, 1.0);
     vec3 position_relative =
         vec3(dot(a_row0, position_object), dot(a_row1, position_object), dot(a_row2, position_object));
+#ifdef BILLBOARD
+    // The billboard's own frustum, on its slot, with a depth range of its own.
+    float distance_m = dot(a_view_w.xyz, position_relative);
+    gl_Position = vec4(dot(a_view_x.xyz, position_relative), dot(a_view_y.xyz, position_relative),
+                       a_view_x.w + a_view_y.w * distance_m, distance_m);
+#else
     gl_Position = vec4(dot(frame.clip_x.xyz, position_relative), dot(frame.clip_y.xyz, position_relative),
                        frame.near_m.x, dot(frame.clip_w.xyz, position_relative));
+#endif
 
     // Normals take the cofactors of the linear part: right for any scale, and for mirrored objects up to the sign.
     vec3 column_x = vec3(a_row0.x, a_row1.x, a_row2.x);

@@ -91,8 +91,8 @@ TEST(LiveReport, TheCsvHasARowPerRefresh) {
     const std::string csv = refreshes_csv(small_run());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 11);
     EXPECT_THAT(csv, ::testing::HasSubstr(
-                         "\n100,1,900.000,996.000,996.000,996.000,996.000,999.000,999.000,1000.000,1005.000,\n"));
-    EXPECT_THAT(csv, ::testing::HasSubstr("\n104,1,,,1036.000,,,,,1040.000,1045.000,late_wakeup\n"));
+                         "\n100,1,900.000,996.000,996.000,996.000,996.000,999.000,999.000,1000.000,1005.000,,,,,,,\n"));
+    EXPECT_THAT(csv, ::testing::HasSubstr("\n104,1,,,1036.000,,,,,1040.000,1045.000,late_wakeup,,,,,,\n"));
 }
 
 TEST(LiveStrip, ChoosesAShownRefreshOfOrdinaryAgeAndMoreThanOrdinaryMotion) {

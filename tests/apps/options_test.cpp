@@ -22,6 +22,7 @@ TEST(Options, DefaultsAreThoseOfTheManual) {
     EXPECT_EQ(options.fov_deg, 90.0);
     EXPECT_EQ(options.near_m, 0.05);
     EXPECT_EQ(options.fill, "nearest-background");
+    EXPECT_EQ(parsed({"replay", "--trace", "walk"}).fill, "pyramid");
     EXPECT_EQ(options.display_hz, 90.0);
     EXPECT_EQ(options.tracker_hz, 1000.0);
     EXPECT_EQ(options.lead_ms, 5.0);

@@ -25,8 +25,13 @@ ReplayResult made_up_result() {
         RefreshRecord record;
         record.refresh = 3 + i;
         record.photon_s = 0.14 + 0.04 * static_cast<double>(i);
-        record.errors = {{0.1 * static_cast<double>(i), 0.9, i == 0 ? std::nullopt : std::optional<double>{30.0}, 0.25},
-                         {0.5, 0.5, 20.0, 0.0}};
+        record.errors = {{0.1 * static_cast<double>(i),
+                          0.9,
+                          i == 0 ? std::nullopt : std::optional<double>{30.0},
+                          0.25,
+                          {0.01, 0.02, 0.03, 0.04},
+                          i == 0 ? std::nullopt : std::optional<double>{0.125}},
+                         {0.5, 0.5, 20.0, 0.0, {0.5, 0.0, 0.0, 0.0}, std::nullopt}};
         result.refreshes.push_back(record);
     }
     result.costs.app_ms = {100.0, 50.0};
@@ -49,6 +54,11 @@ TEST(ReplayReport, HoldsTheKeysThatScriptsRead) {
     }
     EXPECT_EQ(json.at("error").at("psnr_db").at("mean"), 30.0) << "equal images are left out of the mean";
     EXPECT_EQ(json.at("equal_frames"), 1);
+    EXPECT_EQ(json.at("error").at("attribution").at("disoccluded").at("p50"), 0.02);
+    EXPECT_EQ(json.at("error").at("attribution").at("stale_shading").at("mean"), 0.04);
+    EXPECT_EQ(json.at("error").at("flicker").at("mean"), 0.125) << "the first frame has none before it";
+    EXPECT_TRUE(json.at("baselines").at("points:size_px=2,x=1").at("error").at("flicker").is_null());
+    EXPECT_TRUE(json.at("cause_shares").at("out_of_frame").at("mean").is_number());
     EXPECT_EQ(json.at("cost_ms").at("warp").at("mean"), 2.0) << "the first is the warm-up";
     EXPECT_TRUE(json.at("cost_ms").at("prepare").is_null());
 }
@@ -56,9 +66,9 @@ TEST(ReplayReport, HoldsTheKeysThatScriptsRead) {
 TEST(ReplayReport, CsvHasOneRowPerDisplayFrame) {
     const std::string csv = replay_csv(made_up_result());
     EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 4);
-    EXPECT_THAT(csv,
-                HasSubstr("splat.flip,splat.ssim,splat.psnr_db,splat.hole_fraction,\"points:size_px=2,x=1.flip\""));
-    EXPECT_THAT(csv, HasSubstr(",0,0.9,,0.25,")) << "an equal image has an empty PSNR";
+    EXPECT_THAT(csv, HasSubstr("splat.flip,splat.ssim,splat.psnr_db,splat.hole_fraction,splat.attribution.resampled,"));
+    EXPECT_THAT(csv, HasSubstr(",splat.flicker,\"points:size_px=2,x=1.flip\","));
+    EXPECT_THAT(csv, HasSubstr(",0,0.9,,0.25,0.01,0.02,0.03,0.04,,0.5,")) << "an equal image has an empty PSNR";
 }
 
 TEST(ReplayReport, TheTypicalFrameHasTheMedianFlip) { EXPECT_EQ(typical_refresh(made_up_result()), 1u); }

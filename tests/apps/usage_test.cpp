@@ -52,7 +52,9 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"render", "city", "-o", "x.png", "--time", "soon"}, Arguments{"warp", "-o", "x.png"},
         Arguments{"warp", "frame"}, Arguments{"compare", "a.png"}, Arguments{"compare", "a.png", "b.png", "--ppd", "0"},
         Arguments{"generate", "city"}, Arguments{"generate", "atlantis", "-o", "x.glb"}, Arguments{"info"},
-        Arguments{"info", "a", "b"}));
+        Arguments{"info", "a", "b"}, Arguments{"bench", "--suite", "magic"}, Arguments{"bench", "--data", ""},
+        Arguments{"bench", "city"}, Arguments{"bench", "--save-frames"}, Arguments{"bench", "--part", "half"},
+        Arguments{"bench", "--merge", "x.json"}));
 
 /// Options of later versions are refused, never silently ignored.
 class OptionToCome : public testing::TestWithParam<std::string> {};
@@ -69,7 +71,8 @@ INSTANTIATE_TEST_SUITE_P(CommandLine, OptionToCome,
                                          "--billboards"));
 
 TEST(Help, GoesToStandardOutputAndNamesWhatThereIs) {
-    for (const char* subcommand : {"demo", "measure", "replay", "render", "warp", "compare", "generate", "info"}) {
+    for (const char* subcommand :
+         {"demo", "measure", "replay", "render", "warp", "compare", "bench", "generate", "info"}) {
         const ProgramRun run = run_latewarp({subcommand, "--help"});
         EXPECT_EQ(run.exit_code, 0) << subcommand;
         EXPECT_EQ(run.err, "") << subcommand;

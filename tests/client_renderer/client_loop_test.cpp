@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace lw {
 namespace {
@@ -145,6 +146,39 @@ TEST_F(ClientLoopTest, TheSampledPoseIsTheNewestOne) {
         const double begin_s = 10.0 + 0.08 * i;
         EXPECT_NEAR(renderer_.times_s[static_cast<std::size_t>(i)], begin_s, 1e-9);
         EXPECT_NEAR(renderer_.cameras[static_cast<std::size_t>(i)].world_from_eye.position_m.x, begin_s, 1e-6);
+    }
+}
+
+TEST_F(ClientLoopTest, ARendererThatThrowsEndsItAndItsLastFrameStays) {
+    auto loop = make({});
+    renderer_.on_draw = [&] {
+        if (renderer_.cameras.size() == 4) throw std::runtime_error{"out of memory"};
+    };
+    loop->run();
+    EXPECT_EQ(loop->failure(), "out of memory");
+    EXPECT_EQ(loop->records().size(), 3u);
+    ASSERT_NE(exchange_.latest(), nullptr);
+    EXPECT_EQ(exchange_.latest()->index, 3u);
+}
+
+TEST_F(ClientLoopTest, FrozenItDrawsNothingUntilItMayGoOn) {
+    auto loop = make({});
+    loop->set_frozen(true);
+    loop->request_stop();
+    loop->run();
+    EXPECT_TRUE(loop->records().empty());
+    EXPECT_TRUE(loop->failure().empty());
+}
+
+TEST_F(ClientLoopTest, ItsRateCanBeChangedOnTheWay) {
+    auto loop = make({});
+    loop->set_max_hz(5.0);
+    renderer_.on_draw = [&] {
+        if (renderer_.cameras.size() == 4) loop->request_stop();
+    };
+    loop->run();
+    for (std::size_t i = 1; i < loop->records().size(); ++i) {
+        EXPECT_EQ(loop->records()[i].times.published - loop->records()[i - 1].times.published, from_ms(200.0));
     }
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "client_renderer/culling.h"
 #include "tests/client_renderer/hand_made_scenes.h"
 
 namespace lw {
@@ -22,7 +23,7 @@ protected:
         test::add_instance(scene_, 0, glm::scale(at(0.0, 0.0, -8.0), {-1.0, 1.0, 1.0}));
         scene_.finish();
         // Batch 0 draws a part of each mesh, batch 1 a second part of mesh 1.
-        batches_ = {{{0, 6, 0, 0}, {1, 3, 6, 4}}, {{1, 3, 9, 4}}};
+        batches_ = {{{0, 6, 0, 0, {}}, {1, 3, 6, 4, {}}}, {{1, 3, 9, 4, {}}}};
     }
 
     scene::Scene scene_;
@@ -32,10 +33,13 @@ protected:
 TEST_F(DrawListTest, InstancesOfAMeshShareOneCommand) {
     scene::SceneState state{scene_};
     state.set_time(0.0);
-    DrawList list{scene_, state};
-    list.build(state, test::plain_camera({64, 64}), batches_, true);
+    const PlacedInstances placed{scene_, state};
+    DrawList list{placed};
+    Culling culling{placed, {}};
+    list.build(culling.visible(test::plain_camera({64, 64})), test::plain_camera({64, 64}), batches_);
 
-    EXPECT_EQ(list.objects_tested(), 5U);
+    EXPECT_EQ(culling.counters().tested, 5U);
+    EXPECT_EQ(culling.counters().outside, 1U);
     EXPECT_EQ(list.objects_drawn(), 4U);
     ASSERT_EQ(list.ranges().size(), 3U);
     EXPECT_EQ(list.ranges()[0].batch, 0);
@@ -61,10 +65,12 @@ TEST_F(DrawListTest, InstancesOfAMeshShareOneCommand) {
 TEST_F(DrawListTest, TransformsAreRelativeToTheEye) {
     scene::SceneState state{scene_};
     state.set_time(0.0);
-    DrawList list{scene_, state};
+    const PlacedInstances placed{scene_, state};
+    DrawList list{placed};
     Camera camera = test::plain_camera({64, 64});
     camera.world_from_eye.position_m = {0.25, 0.5, 1.0};
-    list.build(state, camera, batches_, true);
+    Culling culling{placed, {}};
+    list.build(culling.visible(camera), camera, batches_);
     const PackedInstance& second = list.instances()[1];
     EXPECT_EQ(second.relative_from_object_rows[0], (glm::vec4{1.0f, 0.0f, 0.0f, 0.75f}));
     EXPECT_EQ(second.relative_from_object_rows[1], (glm::vec4{0.0f, 1.0f, 0.0f, 1.5f}));
@@ -74,8 +80,10 @@ TEST_F(DrawListTest, TransformsAreRelativeToTheEye) {
 TEST_F(DrawListTest, WithoutCullingEverythingIsThere) {
     scene::SceneState state{scene_};
     state.set_time(0.0);
-    DrawList list{scene_, state};
-    list.build(state, test::plain_camera({64, 64}), batches_, false);
+    const PlacedInstances placed{scene_, state};
+    DrawList list{placed};
+    Culling culling{placed, {.skip = false}};
+    list.build(culling.visible(test::plain_camera({64, 64})), test::plain_camera({64, 64}), batches_);
     EXPECT_EQ(list.objects_drawn(), 5U);
 }
 
@@ -90,13 +98,17 @@ TEST_F(DrawListTest, MoversAreTestedWhereTheyAre) {
     scene_.finish();
     scene::SceneState state{scene_};
     state.set_time(0.0);
-    DrawList list{scene_, state};
+    PlacedInstances placed{scene_, state};
+    DrawList list{placed};
+    Culling culling{placed, {}};
     const Camera camera = test::plain_camera({64, 64});
-    list.build(state, camera, batches_, true);
+    list.build(culling.visible(camera), camera, batches_);
     EXPECT_EQ(list.objects_drawn(), 4U);
     EXPECT_EQ(list.instances()[0].object_id, 1U);
     state.set_time(8.0);  // at z = 11, behind the eye
-    list.build(state, camera, batches_, true);
+    placed.move(state);
+    culling.move();
+    list.build(culling.visible(camera), camera, batches_);
     EXPECT_EQ(list.objects_drawn(), 3U);
 }
 

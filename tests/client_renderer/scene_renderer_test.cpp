@@ -262,7 +262,7 @@ Camera random_camera(std::mt19937& random, glm::ivec2 size_px) {
 TEST_F(GlSceneRenderer, CullingChangesNoPixel) {
     const scene::Scene scene = random_squares(1);
     auto culling = make(scene);
-    auto not_culling = make(scene, {.cull = false});
+    auto not_culling = make(scene, {.culling = {.skip = false}});
     std::mt19937 random{2};
     std::uint64_t culled = 0;
     for (int i = 0; i < 30; ++i) {
@@ -290,6 +290,35 @@ TEST_F(GlSceneRenderer, EqualArgumentsGiveEqualBytes) {
     EXPECT_EQ(a.colour, again.colour);
     EXPECT_EQ(a.depth, again.depth);
     EXPECT_EQ(a.colour, elsewhere.colour);
+}
+
+/// A warp method on the same context leaves its own state behind: it writes linear colour, for one.
+TEST_F(GlSceneRenderer, StateThatOthersLeftDoesNotShow) {
+    const scene::Scene scene = random_squares(3);
+    auto renderer = make(scene);
+    std::mt19937 random{4};
+    const Camera camera = random_camera(random, {80, 60});
+    for (const int samples : {1, 2}) {
+        CpuPixels clean;
+        CpuPixels after;
+        ColourImage clean_truth;
+        ColourImage after_truth;
+        renderer->draw_resolved(camera, 0.0, samples, clean);
+        renderer->draw_supersampled(camera, 0.0, samples, clean_truth);
+        const auto leave_state = [] {
+            glEnable(GL_FRAMEBUFFER_SRGB);
+            glEnable(GL_BLEND);
+            glEnable(GL_SCISSOR_TEST);
+            glScissor(0, 0, 1, 1);
+            glColorMask(GL_FALSE, GL_TRUE, GL_TRUE, GL_TRUE);
+        };
+        leave_state();
+        renderer->draw_resolved(camera, 0.0, samples, after);
+        leave_state();
+        renderer->draw_supersampled(camera, 0.0, samples, after_truth);
+        EXPECT_EQ(clean.colour, after.colour) << samples;
+        EXPECT_EQ(clean_truth, after_truth) << samples;
+    }
 }
 
 TEST_F(GlSceneRenderer, LightTilesDoNotShow) {

@@ -8,7 +8,6 @@
 #include <array>
 #include <cmath>
 
-#include "frame_link/prediction.h"
 #include "frame_link/trace.h"
 #include "tests/support/shared_data.h"
 
@@ -148,25 +147,6 @@ TEST_P(DataRecordedTraces, PlaysInAnyScene) {
     EXPECT_EQ(placed.at(0.0).position_m, start.position_m);
     EXPECT_NEAR(heading_rad(placed.at(0.0).orientation), 1.0, 1e-9);
     EXPECT_NEAR(placed.duration_s(), GetParam().duration_s - 20.0, 0.051);
-}
-
-// 20 ms is what a display's latch looks ahead.
-TEST_P(DataRecordedTraces, ConstantVelocityPredictsBetterThanNothing) {
-    LW_NEED_SHARED_DATA();
-    const TraceFeed feed{load(GetParam().file), TimePoint{}, 1000.0};
-    const auto none = *make_predictor("none");
-    const auto velocity = *make_predictor("constant-velocity");
-    double none_rad = 0.0;
-    double velocity_rad = 0.0;
-    for (int i = 5; i < 500; ++i) {
-        const TimePoint now = at_seconds(0.1173 * i);
-        const TimePoint target = now + std::chrono::milliseconds{20};
-        const glm::dquat truth = feed.pose_at(target).orientation;
-        none_rad += angle_between_rad(none->predict(feed, now, target).world_from_head.orientation, truth);
-        velocity_rad += angle_between_rad(velocity->predict(feed, now, target).world_from_head.orientation, truth);
-    }
-    // The robot that carried one headset shook at 10-20 Hz, which nothing predicts; the others come below a half.
-    EXPECT_LT(velocity_rad, 0.9 * none_rad);
 }
 
 INSTANTIATE_TEST_SUITE_P(Data, DataRecordedTraces, testing::ValuesIn(kRecordings), [](const auto& recording) {

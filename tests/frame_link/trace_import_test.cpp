@@ -120,7 +120,8 @@ TEST_F(TraceImport, RefusesWhatIsNoTrace) {
     EXPECT_FALSE(load_trace(folder_.path().string()).ok()) << "a directory";
     const auto missing = load_trace("jog");
     ASSERT_FALSE(missing.ok());
-    EXPECT_EQ(missing.error().message(), "no such trace: jog: give a file or one of still, look-around, walk, shake");
+    EXPECT_EQ(missing.error().message(),
+              "no such trace: jog: give a file or one of still, look-around, walk, shake, dive");
 }
 
 constexpr std::string_view kEyeHeader =

@@ -175,6 +175,18 @@ TEST(BuiltInTraces, MoveAsPeopleDo) {
     EXPECT_EQ(smoothness_of(*load_trace("still")).turn_deg_per_s, 0.0);
 }
 
+TEST(BuiltInTraces, DiveSeesItsMiddleFromAboveThenTurnsOnceInIt) {
+    const Trace dive = *load_trace("dive");
+    EXPECT_NEAR(dive.at(20.0).position_m.y, 14.6, 0.05);
+    EXPECT_LT(glm::length(dive.at(30.0).position_m - glm::dvec3(3.0, 1.6, -50.0)), 1.0);
+    for (const double time_s : {30.5, 32.0, 34.0, 38.0, 41.0}) {
+        EXPECT_LT(glm::length(dive.at(time_s).position_m - glm::dvec3(0.5, 1.6, -50.0)), 3.5) << time_s;
+    }
+    EXPECT_NEAR(heading_rad(dive.at(35.5).orientation), std::acos(-1.0), 0.01) << "half a turn";
+    EXPECT_LT(glm::length(dive.at(60.0).position_m - glm::dvec3(3.0, 14.6, 27.0)), 0.1);
+    EXPECT_LT(smoothness_of(dive).turn_change_deg_per_s2, 100.0);
+}
+
 TEST(BuiltInTraces, WalkStartsForwardAndComesBack) {
     const Trace walk = *load_trace("walk");
     EXPECT_LT(walk.at(5.0).position_m.z, -4.0) << "forward is -Z";

@@ -16,11 +16,16 @@ void* counted_allocation(std::size_t size, std::size_t alignment) {
 }
 }  // namespace
 
-// The array and nothrow forms call these by default.
+// The array forms call these by default; the nothrow forms of a sanitizer do not.
 void* operator new(std::size_t size) { return counted_allocation(size, alignof(std::max_align_t)); }
 void* operator new(std::size_t size, std::align_val_t alignment) {
     return counted_allocation(size, static_cast<std::size_t>(alignment));
 }
+void* operator new(std::size_t size, const std::nothrow_t& /*unused*/) noexcept {
+    ++allocation_count;
+    return std::malloc(size);
+}
+void operator delete(void* memory, const std::nothrow_t& /*unused*/) noexcept { std::free(memory); }
 void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }

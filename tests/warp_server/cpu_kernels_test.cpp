@@ -11,6 +11,7 @@
 #include "tests/warp_server/image_assertions.h"
 #include "tests/warp_server/synthetic_layers.h"
 #include "warp_server/band_pool.h"
+#include "warp_server/fill.h"
 #include "warp_server/methods/linear_colour.h"
 #include "warp_server/methods/row_range.h"
 #include "warp_server/methods/surface_cells.h"
@@ -39,6 +40,28 @@ bool same_pixels(const DisplayFrame& a, const DisplayFrame& b) {
         if (a.colour.pixels()[i] != b.colour.pixels()[i] || a.depth.pixels()[i] != b.depth.pixels()[i]) return false;
     }
     return true;
+}
+
+class VectorFill : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, VectorFill, ::testing::Values("nearest-background", "pyramid"));
+
+TEST_P(VectorFill, EveryInstructionSetGivesTheSameBytes) {
+    const AnalyticScene scene = AnalyticScene::street();
+    InstructionSets sets;
+    for (const glm::ivec2& size_px : {glm::ivec2{131, 67}, glm::ivec2{160, 128}, glm::ivec2{5, 3}}) {
+        const Camera source = street_camera(size_px);
+        const Camera target = moved(source, {0.15, 0.01, -0.06}, 3.0, 1.0, 2.0);
+        const DisplayFrame warped = warp_once("splat", scene.draw(source, 0.0), {target, scene.movers(0.1)});
+        DisplayFrame best = warped;
+        (*make_fill(GetParam()))->apply(best, fill_guide(source, target));
+        for (const std::int64_t set : sets.all()) {
+            InstructionSets::use(set);
+            DisplayFrame frame = warped;
+            (*make_fill(GetParam()))->apply(frame, fill_guide(source, target));
+            EXPECT_TRUE(same_pixels(frame, best)) << hwy::TargetName(set) << " " << size_px.x << "x" << size_px.y;
+        }
+        hwy::SetSupportedTargetsForTest(0);
+    }
 }
 
 class VectorMethod : public ::testing::TestWithParam<std::string> {};

@@ -297,8 +297,8 @@ TEST(SplatMethod, AgreesWithReference) {
     DisplayFrame splat = warp_once("splat", layer, {target, movers});
     DisplayFrame reference = warp_once("reference", layer, {target, movers});
     const auto fill = make_fill("none");  // so that holes are equal and covered pixels are told from them
-    (*fill)->apply(splat);
-    (*fill)->apply(reference);
+    (*fill)->apply(splat, {});
+    (*fill)->apply(reference, {});
     // Float places are off by up to 1e-4 px, so of 1e4 writes about two land on the other side of a pixel's edge or
     // of a step of the winner rule.
     EXPECT_TRUE(images_agree("splat-reference", splat.colour, reference.colour, 0, 2e-3));

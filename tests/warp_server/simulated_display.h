@@ -55,7 +55,7 @@ private:
 class NoFill final : public Fill {
 public:
     [[nodiscard]] std::string_view name() const override { return "nothing"; }
-    void apply(DisplayFrame& frame) override { (void)frame; }
+    void apply(DisplayFrame& frame, const FillGuide& /*guide*/) override { (void)frame; }
 };
 
 /// A tracker with a sample every millisecond, at `pose(time)`.

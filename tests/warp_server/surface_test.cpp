@@ -137,7 +137,7 @@ struct Quality {
 Quality quality_of(const std::string& method, const Layer& layer, const Camera& target,
                    const std::vector<ObjectTransform>& movers, const ColourImage& truth) {
     DisplayFrame frame = warp_once(method, layer, {target, movers});
-    (*make_fill("nearest-background"))->apply(frame);
+    (*make_fill("nearest-background"))->apply(frame, {});
     return {psnr_db(truth, frame.colour).value_or(99.0), flip(truth, frame.colour, pixels_per_degree(target)).mean};
 }
 

@@ -125,7 +125,9 @@ private:
 
     HWY_INLINE void write(int x, int y, Lanes reached, VF source_x, VF source_y, VF depth) {
         const auto centre = [](VF place) { return hn::Sub(place, hn::Set(DF{}, 0.5F)); };
-        const auto colour = encoder_.encoded(reader_.read(reader_.taps_of(centre(source_x), centre(source_y))));
+        const auto read = encoder_.encoded(reader_.read(reader_.taps_of(centre(source_x), centre(source_y))));
+        const auto colour = hn::IfThenElseZero(hn::RebindMask(DU{}, reached), read);
+        depth = hn::IfThenElseZero(reached, depth);
         const auto coverage = hn::IfThenElseZero(hn::RebindMask(DI{}, reached), hn::Set(DI{}, 1));
         const hn::Rebind<std::uint8_t, DF> d8;
         const std::size_t lanes = hn::Lanes(DF{});

@@ -7,94 +7,95 @@
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/splat_kernels.h"
+#include "warp_server/methods/splat_reach.h"
+#include "warp_server/methods/splat_resolve.h"
+#include "warp_server/methods/splat_tiles.h"
 
 namespace lw {
 namespace {
 
-// Threads share the source by rows, and each has keys of its own, so that no two write to one place. The larger key
-// wins whoever wrote it, so the picture does not depend on the number of threads.
+// Bands of the source are worked on in order, and a target row is finished as soon as no later band can reach it.
+// Threads share the target by rows, each with keys of its own: a band that lands in two shares is placed twice, nothing
+// is merged, and the larger key wins whoever wrote it, so the picture does not depend on the number of threads.
 class SplatMethod final : public WarpMethod {
 public:
     SplatMethod(std::string label, int threads)
-        : label_{std::move(label)}, pool_{threads}, shares_(static_cast<std::size_t>(threads)) {}
+        : label_{std::move(label)}, pool_{threads}, keys_(static_cast<std::size_t>(threads)) {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
 
+    [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
+        return tiles_of(checked_cpu_pixels(layer));
+    }
+
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
-        counters_ = {};
         const CpuPixels& pixels = checked_cpu_pixels(layer);
+        const PreparedLayer* prepared = layer.prepared_for(label_);
+        std::shared_ptr<const PreparedLayer> own;
+        if (prepared == nullptr) {
+            own = prepare(layer);
+            prepared = own.get();
+        }
+        const auto& tiles = static_cast<const SplatTiles&>(*prepared);
         matrices_.build(layer, target);
+        reach_.build(tiles, matrices_, target.camera.size_px);
         out.resize(target.camera.size_px);
-        input_ = {&pixels, &matrices_};
+        input_ = {&pixels, &tiles, &matrices_};
         background_ = {background_source_from_target(layer.camera, target.camera)};
         out_ = &out;
-        if (pool_.threads() > 1) estimate_costs(pixels.depth);
-        pool_.run(splat_share_);
-        for (const Share& share : shares_) {
-            counters_.bad_depth += share.counters.bad_depth;
-            counters_.unknown_object += share.counters.unknown_object;
-        }
-        pool_.run(resolve_band_);
+        pool_.run(work_);
+        count_bad_pixels(tiles);
     }
 
 private:
-    struct Share {
-        Image<WinnerKey> keys;
-        RowRange written;  // rows of keys that are not all 0
-        WarpCounters counters;
-    };
-
-    // Points cost, background does not: counts them in a sample of the pixels.
-    void estimate_costs(const DepthImage& depth) {
-        constexpr int kRowStep = 8;
-        constexpr int kColumnStep = 16;
-        cost_until_.assign(static_cast<std::size_t>(depth.height()) + 1, 0.0F);
-        float row_cost = 0.0F;
-        for (int y = 0; y < depth.height(); ++y) {
-            if (y % kRowStep == 0) {
-                row_cost = 0.1F;  // looking at background costs a little, too
-                for (int x = kColumnStep / 2; x < depth.width(); x += kColumnStep)
-                    row_cost += depth.at(x, y) > 0.0F ? 1.0F : 0.0F;
+    void draw_share(int thread) {
+        const RowRange share = reach_.share(*input_.tiles, thread, pool_.threads());
+        KeyRing& keys = keys_[static_cast<std::size_t>(thread)];
+        keys.reshape(out_->colour.width(), std::min(reach_.rows_in_flight(), out_->colour.height()));
+        int finished = share.begin;  // rows before are done
+        int reached = share.begin;   // rows from here on were not written yet
+        finish_rows(finished, reached, std::min(reach_.first_row_from_band(0), share.end), keys);
+        for (int band = 0; band < input_.tiles->bands(); ++band) {
+            const RowRange rows = reach_.rows_of_band(band);
+            if (rows.begin < share.end && rows.end > finished && rows.begin < rows.end) {
+                splat_band(input_, band, reach_.outside(band), {finished, share.end}, keys);
+                reached = std::clamp(rows.end, reached, share.end);
             }
-            cost_until_[static_cast<std::size_t>(y) + 1] = cost_until_[static_cast<std::size_t>(y)] + row_cost;
+            finish_rows(finished, reached, std::min(reach_.first_row_from_band(band + 1), share.end), keys);
         }
     }
 
-    void splat_share(int thread) {
-        Share& share = shares_[static_cast<std::size_t>(thread)];
-        if (share.keys.size_px() != out_->colour.size_px()) {  // else resolving left them cleared
-            share.keys.resize(out_->colour.size_px());
-            std::fill(share.keys.pixels().begin(), share.keys.pixels().end(), WinnerKey{0});
-        }
-        share.counters = {};
-        const int height = input_.pixels->depth.height();
-        const RowRange rows =
-            pool_.threads() == 1 ? RowRange{0, height} : band_of_cost(cost_until_, thread, pool_.threads());
-        share.written = splat_points(input_, rows, share.keys, share.counters);
+    // Resolves the rows from `finished` to `end`.
+    void finish_rows(int& finished, int& reached, int end, KeyRing& keys) {
+        if (end <= finished) return;
+        const int end_reached = std::min(end, reached);
+        if (finished < end_reached) resolve_rows(input_, background_, {finished, end_reached}, keys, *out_);
+        const int begin_unreached = std::max(finished, end_reached);
+        resolve_unreached_rows(input_, background_, {begin_unreached, end}, *out_);
+        finished = end;
+        reached = std::max(reached, end);
     }
 
-    void resolve_band(int thread) {
-        const RowRange band = band_of_rows(out_->colour.height(), thread, pool_.threads());
-        Share& first = shares_.front();
-        for (std::size_t i = 1; i < shares_.size(); ++i) {
-            const RowRange rows{std::max(band.begin, shares_[i].written.begin),
-                                std::min(band.end, shares_[i].written.end)};
-            if (rows.begin < rows.end) merge_keys(rows, shares_[i].keys, first.keys);
+    void count_bad_pixels(const SplatTiles& tiles) {
+        counters_ = {};
+        for (std::size_t id = 0; id < tiles.pixels_of_object.size(); ++id) {
+            const ObjectPixels& pixels = tiles.pixels_of_object[id];
+            const bool known = matrices_.find(static_cast<ObjectId>(id)) != nullptr;
+            counters_.bad_depth += known ? pixels.unusable : 0;
+            counters_.unknown_object += known ? 0 : pixels.all;
         }
-        resolve_keys(input_, background_, band, first.keys, *out_);
     }
 
     std::string label_;
     BandPool pool_;
-    std::vector<Share> shares_;
+    std::vector<KeyRing> keys_;  // one for each thread
     ObjectMatrices matrices_;
+    SplatReach reach_;
     SplatInput input_;
     BackgroundLookup background_;
     DisplayFrame* out_ = nullptr;
-    std::vector<float> cost_until_;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> splat_share_ = [this](int thread) { splat_share(thread); };
-    std::function<void(int)> resolve_band_ = [this](int thread) { resolve_band(thread); };
+    std::function<void(int)> work_ = [this](int thread) { draw_share(thread); };
 };
 
 }  // namespace

@@ -285,14 +285,17 @@ private:
         const std::size_t index =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(target_width_) + static_cast<std::size_t>(x);
         __builtin_prefetch(depths_ + index + kPrefetchRows * target_width_, 1);
-        const auto nearer = hn::And(inside, hn::Lt(hn::LoadU(DF{}, depths_ + index), solved.depth));
-        const std::uint32_t bits = bits_of(DF{}, nearer);
+        const VF shown = hn::LoadU(DF{}, depths_ + index);
+        const auto not_behind = hn::And(inside, hn::Le(shown, solved.depth));
+        const std::uint32_t bits = bits_of(DF{}, not_behind);
         if (bits == 0) return;
         // Places outside of the patch may be anything.
-        const auto place = [&](VF origin, VF offset) { return hn::IfThenElseZero(nearer, hn::Add(origin, offset)); };
+        const auto place = [&](VF origin, VF offset) {
+            return hn::IfThenElseZero(not_behind, hn::Add(origin, offset));
+        };
         const Taps taps = reader_.taps_of(place(origin_x, solved.dx), place(origin_y, solved.dy));
-        hn::BlendedStore(solved.depth, nearer, DF{}, depths_ + index);
-        runs_.push(bits, index, taps);
+        hn::BlendedStore(solved.depth, not_behind, DF{}, depths_ + index);
+        runs_.push(bits, bits_of(DF{}, hn::And(not_behind, hn::Eq(shown, solved.depth))), index, taps);
     }
 
     // Calls `push` with the pixels of the box that are inside of the patch, as many at once as there are lanes, over

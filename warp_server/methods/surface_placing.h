@@ -24,6 +24,10 @@ inline constexpr float kOutOfReachPx = 100000.0F;  // places beyond are in no im
 // Target pixels per source pixel, in area, below which a plane counts as seen edge-on; negative: from its back.
 inline constexpr float kSmallestArea = 1e-4F;
 
+// `share` of PlacedPatches is 1 where the patch's origin lands and small where the patch is much farther away: 1e-5 of
+// the depth were lost at 30.
+inline constexpr float kDeepest = 8.0F;
+
 /// Patches laid out for one target, and the way back. With e the offset of a target place from where the patch's origin
 /// lands: share = 1 + share_x e_x + share_y e_y, offset in the source = (x_x e_x + x_y e_y, y_x e_x + y_y e_y) / share,
 /// and depth in the target = depth + depth_x e_x + depth_y e_y.
@@ -56,8 +60,9 @@ struct TargetBand {
 };
 
 /// Places Lanes(d) patches of one object from index `first` on. One bit for each of those `wanted` that have pixels in
-/// the band. Those that reach behind the target eye have none; their indices are appended to `behind`. Those that are
-/// not in the picture at all are counted.
+/// the band. Those that reach behind the target eye have none, nor have those of several cells that are kDeepest times
+/// as far from it at one corner as at another; their indices are appended to `behind`. Those
+/// that are not in the picture at all are counted.
 template <class D, class M>
 HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t first, const PixelMatrix& m, M wanted,
                                        const TargetBand& band, PlacedPatches& placed,
@@ -96,12 +101,16 @@ HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t f
     V high_x = set(-kOutOfReachPx);
     V high_y = high_x;
     auto in_front = hn::Gt(w, hn::Zero(d));
+    V nearest_w = w;
+    V farthest_w = w;
     for (const auto* dx : {&list.left, &list.right}) {
         for (const auto* dy : {&list.top, &list.bottom}) {
             const V corner_x = load(*dx);
             const V corner_y = load(*dy);
             const V corner_w = hn::Add(hn::Add(w, hn::Mul(w_x, corner_x)), hn::Mul(w_y, corner_y));
             in_front = hn::And(in_front, hn::Gt(corner_w, hn::Zero(d)));
+            nearest_w = hn::Min(nearest_w, corner_w);
+            farthest_w = hn::Max(farthest_w, corner_w);
             const V scale = hn::Div(set(1.0F), corner_w);
             const V place_x = hn::Add(target_x, hn::Mul(hn::Add(hn::Mul(xx, corner_x), hn::Mul(xy, corner_y)), scale));
             const V place_y = hn::Add(target_y, hn::Mul(hn::Add(hn::Mul(yx, corner_x), hn::Mul(yy, corner_y)), scale));
@@ -111,6 +120,10 @@ HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t f
             high_y = hn::Max(high_y, place_y);
         }
     }
+    const V one_cell = set(1.5F);
+    const auto is_large = hn::Or(hn::Gt(load(list.right), one_cell), hn::Gt(load(list.bottom), one_cell));
+    const auto is_deep = hn::And(is_large, hn::Gt(farthest_w, hn::Mul(nearest_w, set(kDeepest))));
+    in_front = hn::AndNot(is_deep, in_front);
     for (std::uint32_t bits = bits_of(d, hn::AndNot(in_front, wanted)); bits != 0; bits &= bits - 1) {
         behind.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctz(bits))));
     }

@@ -29,6 +29,8 @@ HWY_INLINE void append_lanes(D d, hn::VFromD<D> values, M wanted, T* to) {
     hn::StoreU(hn::Compress(values, hn::RebindMask(d, wanted)), d, to);
 }
 
+// Pieces overlap a little, and the number of lanes decides which comes first: of equal depths the larger word is shown.
+
 /// Runs of opaque pixels in a row whose depth is written already. Reading and encoding one run waits for one result
 /// after the other; many runs in turn wait for none.
 class RunQueue {
@@ -36,10 +38,12 @@ public:
     RunQueue(const ColourReader& reader, const ColourEncoder& encoder, DisplayFrame& out)
         : reader_{reader}, encoder_{encoder}, colours_{reinterpret_cast<std::uint32_t*>(out.colour.pixels().data())} {}
 
-    /// The lanes whose bits are in `wanted`, of the pixels from number `pixel` on, show the source at the taps.
-    HWY_INLINE void push(std::uint32_t wanted, std::size_t pixel, const Taps& taps) {
+    /// The lanes whose bits are in `wanted`, of the pixels from number `pixel` on, show the source at the taps. Those
+    /// of them in `equal` have the depth that was there.
+    HWY_INLINE void push(std::uint32_t wanted, std::uint32_t equal, std::size_t pixel, const Taps& taps) {
         Run& run = runs_[count_++];
         run.wanted = wanted;
+        run.equal = equal;
         run.pixel = pixel;
         hn::Store(taps.x, DI{}, run.x);
         hn::Store(taps.y, DI{}, run.y);
@@ -53,8 +57,12 @@ public:
         for (std::size_t i = 0; i < count_; ++i) {
             const Run& run = runs_[i];
             const LinearColours linear{hn::Load(DU{}, run.red), hn::Load(DU{}, run.green), hn::Load(DU{}, run.blue)};
-            const auto wanted = lanes_of_bits(DU{}, run.wanted);
-            hn::BlendedStore(encoder_.encoded(linear), wanted, DU{}, colours_ + run.pixel);
+            auto colour = encoder_.encoded(linear);
+            if (run.equal != 0) {
+                const auto larger = hn::Max(colour, hn::LoadU(DU{}, colours_ + run.pixel));
+                colour = hn::IfThenElse(lanes_of_bits(DU{}, run.equal), larger, colour);
+            }
+            hn::BlendedStore(colour, lanes_of_bits(DU{}, run.wanted), DU{}, colours_ + run.pixel);
         }
         count_ = 0;
     }
@@ -72,6 +80,7 @@ private:
         HWY_ALIGN std::uint32_t blue[kMaxLanes];
         std::size_t pixel;
         std::uint32_t wanted;
+        std::uint32_t equal;
     };
 
     HWY_INLINE void read(Run& run) const {
@@ -136,7 +145,9 @@ public:
             const std::size_t end = std::min(lanes, count_ - i);
             for (std::size_t lane = 0; lane < end; ++lane) {
                 const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
-                if (depths_[pixel] >= depth_[i + lane]) continue;
+                const float shown = depths_[pixel];
+                if (shown > depth_[i + lane]) continue;
+                if (shown == depth_[i + lane] && colours_[pixel] >= colours[lane]) continue;
                 depths_[pixel] = depth_[i + lane];
                 colours_[pixel] = colours[lane];
             }

@@ -32,10 +32,10 @@ void split_patch(const PatchList& list, std::uint32_t index, PatchList& parts) {
             if (right && middle_x == 0.0F) continue;
             const Span x = middle_x == 0.0F
                                ? Span{list.left[index], list.right[index]}
-                               : part_of(list.left[index], list.right[index], middle_x, right, kPatchOverlapPx);
+                               : part_of(list.left[index], list.right[index], middle_x, right, kPatchOverlap.after_px);
             const Span y = middle_y == 0.0F
                                ? Span{list.top[index], list.bottom[index]}
-                               : part_of(list.top[index], list.bottom[index], middle_y, lower, kPatchOverlapPx);
+                               : part_of(list.top[index], list.bottom[index], middle_y, lower, kPatchOverlap.after_px);
             const float from_x = right ? middle_x : 0.0F;
             const float from_y = lower ? middle_y : 0.0F;
             parts.x.push_back(list.x[index] + from_x);
@@ -70,7 +70,7 @@ void split_tile(const SurfaceTiles& tiles, std::size_t index, PatchList& whole, 
             const bool is_whole = corners == kAllCorners;
             while (is_whole && corners_at(end) == kAllCorners) ++end;
             PatchList& parts = is_whole ? whole : edges;
-            const float overlap = is_whole ? kPatchOverlapPx : kEdgeOverlapPx;
+            const PatchOverlap overlap = is_whole ? kPatchOverlap : kEdgeOverlap;
             const auto from_x = static_cast<float>(column);
             const auto from_y = static_cast<float>(row);
             parts.x.push_back(list.x[index] + from_x);
@@ -80,10 +80,11 @@ void split_tile(const SurfaceTiles& tiles, std::size_t index, PatchList& whole, 
             parts.gradient_x.push_back(list.gradient_x[index]);
             parts.gradient_y.push_back(list.gradient_y[index]);
             // Cells end as the tile does there: at the rim of the image half a pixel off.
-            parts.left.push_back(column > 0 ? -overlap : (is_whole ? list.left : tiles.edge_left)[index]);
-            parts.top.push_back(row > 0 ? -overlap : (is_whole ? list.top : tiles.edge_top)[index]);
-            parts.right.push_back(std::min(static_cast<float>(end - column) + overlap, list.right[index] - from_x));
-            parts.bottom.push_back(std::min(1.0F + overlap, list.bottom[index] - from_y));
+            parts.left.push_back(column > 0 ? -overlap.before_px : (is_whole ? list.left : tiles.edge_left)[index]);
+            parts.top.push_back(row > 0 ? -overlap.before_px : (is_whole ? list.top : tiles.edge_top)[index]);
+            parts.right.push_back(
+                std::min(static_cast<float>(end - column) + overlap.after_px, list.right[index] - from_x));
+            parts.bottom.push_back(std::min(1.0F + overlap.after_px, list.bottom[index] - from_y));
             parts.object_id.push_back(list.object_id[index]);
             parts.corners.push_back(corners);
         }

@@ -173,18 +173,20 @@ void TileBuilder::write(const TilePlane& plane) {
     writer_.add(list, x_, y_, {kTileSize, kTileSize}, plane.plane, kAllCorners);
     // Inside of the tile cells meet without overlap, because one place is in one cell.
     const glm::ivec2 size_px = links_->size_px();
-    const auto overlap = [&](int first, int end, float part) { return first == 0 || end == kTileSize ? part : 0.0F; };
-    const auto bounds = [&](float part) {
+    const auto overlap = [&](int first, int end, PatchOverlap part) {
+        return first == 0 || end == kTileSize ? part : PatchOverlap{};
+    };
+    const auto bounds = [&](PatchOverlap part) {
         return std::pair{
             patch_extent(x_, first_column, last_column + 1, size_px.x, overlap(first_column, last_column + 1, part)),
             patch_extent(y_, first_row, last_row + 1, size_px.y, overlap(first_row, last_row + 1, part))};
     };
-    const auto [whole_columns, whole_rows] = bounds(kPatchOverlapPx);
+    const auto [whole_columns, whole_rows] = bounds(kPatchOverlap);
     list.left.back() = whole_columns.begin;
     list.right.back() = whole_columns.end;
     list.top.back() = whole_rows.begin;
     list.bottom.back() = whole_rows.end;
-    const auto [edge_columns, edge_rows] = bounds(kEdgeOverlapPx);
+    const auto [edge_columns, edge_rows] = bounds(kEdgeOverlap);
     tiles.edge_left.push_back(edge_columns.begin);
     tiles.edge_right.push_back(edge_columns.end);
     tiles.edge_top.push_back(edge_rows.begin);

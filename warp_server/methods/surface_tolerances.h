@@ -14,10 +14,17 @@ inline constexpr float kSlopeChangePart = 0.5F;
 /// A pixel of a patch may lie off the patch's plane by this part of its depth: 0.05 px for 10 cm of motion at 1 m.
 inline constexpr float kPlaneDepthPart = 1e-3F;
 
-/// Pieces of one surface overlap by this much of a source pixel, so that rounding leaves no crack between them.
-inline constexpr float kPatchOverlapPx = 0.02F;
+/// How far a piece reaches beyond its first and its last cell, in source pixels.
+struct PatchOverlap {
+    float before_px = 0.0F;
+    float after_px = 0.0F;
+};
 
-/// Edge cells must hardly overlap: a pixel in two of them would count twice.
-inline constexpr float kEdgeOverlapPx = 1e-4F;
+/// Pieces of one surface overlap, so that rounding leaves no crack between them.
+inline constexpr PatchOverlap kPatchOverlap{0.02F, 0.02F};
+
+/// Edge cells must hardly overlap, because a pixel in two of them would count twice. Things that moved along one axis
+/// only have pixels exactly on the borders of cells along the other: those belong to the later cell alone.
+inline constexpr PatchOverlap kEdgeOverlap{1.1e-3F, -1e-3F};
 
 }  // namespace lw

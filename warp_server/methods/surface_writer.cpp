@@ -3,20 +3,19 @@
 #include <algorithm>
 
 #include "warp_server/methods/surface_cells.h"
-#include "warp_server/methods/surface_tolerances.h"
 
 namespace lw {
 
-PatchExtent patch_extent(int origin, int first, int end, int size, float overlap) {
+PatchExtent patch_extent(int origin, int first, int end, int size, PatchOverlap overlap) {
     const bool at_begin = origin + first == 0;
     const bool at_end = origin + end == size;
-    return {at_begin ? -0.5F : static_cast<float>(first) - overlap,
-            at_end ? static_cast<float>(end) - 0.5F : static_cast<float>(end) + overlap};
+    return {at_begin ? -0.5F : static_cast<float>(first) - overlap.before_px,
+            at_end ? static_cast<float>(end) - 0.5F : static_cast<float>(end) + overlap.after_px};
 }
 
 void PatchWriter::add(PatchList& list, int x, int y, glm::ivec2 size, const BlockPlane& plane,
                       std::uint8_t corners) const {
-    const float overlap = corners == kAllCorners ? kPatchOverlapPx : kEdgeOverlapPx;
+    const PatchOverlap overlap = corners == kAllCorners ? kPatchOverlap : kEdgeOverlap;
     const PatchExtent columns = patch_extent(x, 0, std::min(size.x, size_px_.x - x), size_px_.x, overlap);
     const PatchExtent rows = patch_extent(y, 0, std::min(size.y, size_px_.y - y), size_px_.y, overlap);
     list.x.push_back(static_cast<float>(x));

@@ -3,6 +3,7 @@
 
 #include "warp_server/methods/surface_classify.h"
 #include "warp_server/methods/surface_links.h"
+#include "warp_server/methods/surface_tolerances.h"
 
 namespace lw {
 
@@ -25,8 +26,8 @@ struct PatchExtent {
 };
 
 /// Cells [first, end) of those from `origin` on, in an image of `size` pixels along the axis. They reach `overlap`
-/// further on both sides, and at the rim of the image half a pixel, to the image's edge; the last cells half as far.
-[[nodiscard]] PatchExtent patch_extent(int origin, int first, int end, int size, float overlap);
+/// further, and at the rim of the image half a pixel, to the image's edge; the last cells half as far.
+[[nodiscard]] PatchExtent patch_extent(int origin, int first, int end, int size, PatchOverlap overlap);
 
 /// One thread at a time.
 class PatchWriter {

@@ -1,0 +1,17 @@
+#pragma once
+/// Groups of options that have a file of their own, apps/options_<subject>.cpp.
+
+namespace lw {
+
+class Declarer;
+
+/// --suite, --quick, --data, --part, --merge: what `bench` measures, and on what.
+void declare_bench_run(Declarer& declare);
+
+/// --error-cap, --budget-ms, --bench-data: what `--method auto` chooses by.
+void declare_autotune(Declarer& declare);
+
+/// --billboards and --billboard-*: which objects the client draws as billboards, and how.
+void declare_billboards(Declarer& declare);
+
+}  // namespace lw

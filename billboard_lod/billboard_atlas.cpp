@@ -1,0 +1,127 @@
+#include "billboard_lod/billboard_atlas.h"
+
+#include "core/check.h"
+#include "shaders/billboard_blocks.h"
+
+namespace lw {
+
+namespace {
+
+std::vector<GLenum> surface_formats(AtlasFormat format) {
+    if (format == AtlasFormat::packed) return {GL_RG32UI};
+    return {GL_RGBA8, GL_RG16, GL_RGBA8};
+}
+
+glm::ivec2 driver_limit_px() {
+    GLint texture = 0;
+    GLint width = 0;
+    GLint height = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &texture);
+    glGetIntegerv(GL_MAX_FRAMEBUFFER_WIDTH, &width);
+    glGetIntegerv(GL_MAX_FRAMEBUFFER_HEIGHT, &height);
+    return glm::min(glm::ivec2{width, height}, glm::ivec2{texture});
+}
+
+gl::Buffer make_empty_buffer() {
+    GLuint id = 0;
+    glCreateBuffers(1, &id);
+    return gl::Buffer{id};
+}
+
+}  // namespace
+
+std::string_view defines_of(AtlasFormat format) { return format == AtlasFormat::packed ? "#define PACKED\n" : ""; }
+
+Result<BillboardAtlas> BillboardAtlas::create(AtlasFormat format,
+                                              const std::array<int, kBillboardDimensions.size()>& capacities) {
+    BillboardAtlas atlas;
+    atlas.format_ = format;
+    const glm::ivec2 limit_px = driver_limit_px();
+    for (std::size_t level = 0; level < capacities.size(); ++level) {
+        atlas.layouts_[level] = atlas_layout(kBillboardDimensions[level], capacities[level], limit_px);
+    }
+    auto clear = gl::Program::create({"billboards/clear.vert", "billboards/clear.frag"});
+    if (!clear.ok()) return clear.error();
+    atlas.clear_ = std::move(*clear);
+    atlas.rects_ = make_empty_buffer();
+    atlas.rect_array_ = gl::make_vertex_array();
+    const GLuint array = atlas.rect_array_.id();
+    glVertexArrayVertexBuffer(array, 0, atlas.rects_.id(), 0, sizeof(glm::vec4));
+    glVertexArrayBindingDivisor(array, 0, 1);
+    glEnableVertexArrayAttrib(array, 0);
+    glVertexArrayAttribFormat(array, 0, 4, GL_FLOAT, GL_FALSE, 0);
+    glVertexArrayAttribBinding(array, 0, 0);
+    return atlas;
+}
+
+bool BillboardAtlas::allocate(std::size_t level) {
+    Level& made = levels_[level];
+    const glm::ivec2 size_px = layouts_[level].size_px();
+    while (glGetError() != GL_NO_ERROR) {
+    }
+    std::vector<const gl::Texture*> colours;
+    made.surfaces.reserve(3);
+    for (const GLenum format : surface_formats(format_)) made.surfaces.emplace_back(size_px, format);
+    for (const gl::Texture& surface : made.surfaces) colours.push_back(&surface);
+    made.depth = gl::Texture{
+        size_px, format_ == AtlasFormat::packed ? GLenum{GL_DEPTH_COMPONENT16} : GLenum{GL_DEPTH_COMPONENT32F}};
+    if (glGetError() == GL_NO_ERROR) {
+        auto framebuffer = gl::Framebuffer::create(colours, &made.depth);
+        if (framebuffer.ok()) {
+            made.framebuffer = std::move(*framebuffer);
+            return true;
+        }
+    }
+    made = {};
+    return false;
+}
+
+bool BillboardAtlas::begin(std::size_t level, std::span<const int> slots) {
+    LW_CHECK(layouts_[level].capacity > 0, "an atlas without slots");
+    if (!levels_[level].framebuffer && !allocate(level)) return false;
+    levels_[level].framebuffer.bind();
+    clear(level, slots);
+    return true;
+}
+
+void BillboardAtlas::clear(std::size_t level, std::span<const int> slots) {
+    const AtlasLayout& layout = layouts_[level];
+    std::vector<glm::vec4> rects;
+    rects.reserve(slots.size());
+    for (const int slot : slots) {
+        const glm::dvec4 uv = layout.slot_uv(slot);
+        // Row 0 is on top, NDC counts upwards.
+        rects.emplace_back(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.w, 2.0 * uv.z - 1.0, 1.0 - 2.0 * uv.y);
+    }
+    glNamedBufferData(rects_.id(), static_cast<GLsizeiptr>(rects.size() * sizeof(glm::vec4)), rects.data(),
+                      GL_STREAM_DRAW);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_ALWAYS);
+    glDepthMask(GL_TRUE);
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    clear_.use();
+    glBindVertexArray(rect_array_.id());
+    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(rects.size()));
+    glBindVertexArray(0);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    glDepthFunc(GL_GEQUAL);
+    glDisable(GL_DEPTH_TEST);
+}
+
+void BillboardAtlas::bind_textures(std::size_t level) const {
+    const Level& bound = levels_[level];
+    glBindTextureUnit(shader::kUnitAtlasDepth, bound.depth.id());
+    for (std::size_t i = 0; i < bound.surfaces.size(); ++i) {
+        glBindTextureUnit(static_cast<GLuint>(shader::kUnitAtlasSurface) + static_cast<GLuint>(i),
+                          bound.surfaces[i].id());
+    }
+}
+
+std::size_t BillboardAtlas::bytes(std::size_t level) const {
+    if (!levels_[level].framebuffer) return 0;
+    const glm::ivec2 size_px = layouts_[level].size_px();
+    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y) *
+           static_cast<std::size_t>(bytes_per_texel(format_));
+}
+
+}  // namespace lw

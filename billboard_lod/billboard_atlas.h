@@ -1,0 +1,71 @@
+#pragma once
+/// The framebuffers that hold the billboards' surfaces: one per dimension.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "billboard_lod/atlas_layout.h"
+#include "core/result.h"
+#include "gl/framebuffer.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+
+namespace lw {
+
+/// What an atlas keeps per texel. Object ids are constant over a billboard and are not stored.
+enum class AtlasFormat : std::uint8_t {
+    packed,  ///< 10 bytes: surface RG32UI (shaders/billboards/packed_surface.glsl), depth 16 bits of the own range
+    full,    ///< 16 bytes: the attachments of the scene's G-buffer, depth 32 bits
+};
+
+/// Bytes of one texel. Pure.
+[[nodiscard]] constexpr int bytes_per_texel(AtlasFormat format) { return format == AtlasFormat::packed ? 10 : 16; }
+
+/// Preprocessor lines for the shaders that write or read such an atlas.
+[[nodiscard]] std::string_view defines_of(AtlasFormat format);
+
+/// Belongs to one GL context and its thread.
+class BillboardAtlas {
+public:
+    /// `capacities[i]` slots of kBillboardDimensions[i] are wanted, 0 or more; the driver's limits may allow fewer.
+    /// Memory is taken when a dimension is first drawn to. A shader that does not compile is an error.
+    [[nodiscard]] static Result<BillboardAtlas> create(AtlasFormat format,
+                                                       const std::array<int, kBillboardDimensions.size()>& capacities);
+
+    [[nodiscard]] AtlasFormat format() const { return format_; }
+    [[nodiscard]] const AtlasLayouts& layouts() const { return layouts_; }
+
+    /// Makes the framebuffer of `level` current, viewport over all of it, and clears the depth of `slots` (indices).
+    /// False when the driver has no memory for it; nothing is bound then. Programmer error without capacity.
+    [[nodiscard]] bool begin(std::size_t level, std::span<const int> slots);
+
+    /// Binds the textures of `level` to the units of billboard_blocks.h. It was drawn to.
+    void bind_textures(std::size_t level) const;
+
+    /// Bytes of the textures of a level: what it takes now (0 before it was first drawn to).
+    [[nodiscard]] std::size_t bytes(std::size_t level) const;
+
+private:
+    struct Level {
+        std::vector<gl::Texture> surfaces;
+        gl::Texture depth;
+        gl::Framebuffer framebuffer;
+    };
+
+    BillboardAtlas() = default;
+    [[nodiscard]] bool allocate(std::size_t level);
+    void clear(std::size_t level, std::span<const int> slots);
+
+    AtlasFormat format_ = AtlasFormat::packed;
+    AtlasLayouts layouts_;
+    std::array<Level, kBillboardDimensions.size()> levels_;
+    gl::Program clear_;
+    gl::Buffer rects_;  ///< mutable storage, replaced per clear
+    gl::VertexArray rect_array_;
+};
+
+}  // namespace lw

@@ -1,0 +1,439 @@
+#include "billboard_lod/billboard_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "billboard_lod/billboard_view.h"
+#include "billboard_lod/bounded_queue.h"
+#include "billboard_lod/object_groups.h"
+#include "billboard_lod/object_score.h"
+#include "billboard_lod/update_cost.h"
+
+namespace lw {
+
+namespace {
+
+/// A drawn billboard in its slot.
+struct Version {
+    AtlasSlot slot;
+    DrawnBillboard drawn;
+    glm::dmat4 object_from_eye_drawn{1.0};
+    glm::dvec3 horizontal_world{1.0, 0.0, 0.0};  ///< of the picture it was drawn for
+    glm::dvec3 to_centre_world{0.0};             ///< from the eye that drew it
+};
+
+enum class Shown : std::uint8_t { nothing, mesh, billboard };
+
+struct Entry {
+    BillboardObject object;
+    std::uint64_t triangles = 0;
+    std::optional<Version> current;
+    std::optional<Version> previous;  ///< while it fades out
+    int fade = 0;                     ///< frames since `current` was drawn
+    std::uint64_t last_shown = 0;     ///< number of the last frame that showed `current`
+    Shown shown = Shown::nothing;
+    ProjectedBounds bounds;
+    glm::dmat4 world_from_object{1.0};
+};
+
+glm::dvec3 right_of(const Camera& camera) { return camera.world_from_eye.orientation * glm::dvec3{1.0, 0.0, 0.0}; }
+
+bool finite(const glm::dmat4& m) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(m[column][row])) return false;
+        }
+    }
+    return true;
+}
+
+class Field final : public BillboardField {
+public:
+    Field(const scene::Scene& scene, ObjectPainter& painter, const BillboardSettings& settings,
+          const Clock* stage_clock, BillboardAtlas atlas, BillboardPass pass)
+        : scene_{scene},
+          painter_{painter},
+          settings_{settings},
+          stage_clock_{stage_clock},
+          atlas_{std::move(atlas)},
+          pass_{std::move(pass)},
+          slots_{atlas_.layouts()},
+          creations_{static_cast<std::size_t>(std::max(settings.max_creations, 0))},
+          updates_{static_cast<std::size_t>(std::max(settings.max_updates, 0))},
+          mesh_distance_m_{mesh_distance_m(scene.bounds_world, settings.mesh_distance_share)},
+          replaced_(scene.instances.size(), 0) {
+        scene::SceneState state{scene};
+        state.set_time(0.0);
+        std::vector<bool> eligible(scene.instances.size());
+        for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
+            eligible[i] = painter.triangles_of(i) >= std::max<std::uint64_t>(settings.min_triangles, 1);
+        }
+        for (BillboardObject& object : billboard_objects(scene, state, eligible, settings.group_touching)) {
+            Entry entry;
+            for (const std::uint32_t instance : object.instances) entry.triangles += painter.triangles_of(instance);
+            entry.object = std::move(object);
+            entries_.push_back(std::move(entry));
+        }
+    }
+
+    void prepare(const Camera& camera, const scene::SceneState& state) override {
+        ++frame_;
+        counters_ = {};
+        std::ranges::fill(replaced_, std::uint8_t{0});
+        camera_ = camera;
+        eye_from_world_ = inverse_matrix_of(camera.world_from_eye);
+        foresee();
+        begin_stage();
+        classify(state);
+        counters_.choose_ms = end_stage();
+        create_new();
+        update_due();
+        finish();
+    }
+
+    [[nodiscard]] std::span<const std::uint8_t> replaced() const override { return replaced_; }
+
+    void draw(const Camera& part) override {
+        quads_.clear();
+        for (const Entry& entry : entries_) {
+            if (entry.shown != Shown::billboard) continue;
+            const float share = entry.previous
+                                    ? static_cast<float>(entry.fade + 1) / static_cast<float>(settings_.fade_frames + 1)
+                                    : 1.0f;
+            append(entry, *entry.current, part, 0.0f, share);
+            if (entry.previous) append(entry, *entry.previous, part, share, 1.0f);
+        }
+        pass_.draw(quads_, atlas_, part);
+    }
+
+    [[nodiscard]] const BillboardCounters& counters() const override { return counters_; }
+    [[nodiscard]] std::array<std::size_t, kBillboardDimensions.size()> bytes() const override {
+        std::array<std::size_t, kBillboardDimensions.size()> all{};
+        for (std::size_t level = 0; level < all.size(); ++level) all[level] = atlas_.bytes(level);
+        return all;
+    }
+    [[nodiscard]] const BillboardSettings& settings() const override { return settings_; }
+
+private:
+    /// Where the eye will be at the next frame if it goes on as since the last.
+    void foresee() {
+        const Pose& now = camera_.world_from_eye;
+        const Pose next = last_pose_ ? interpolate(*last_pose_, now, 2.0) : now;
+        next_eye_from_world_ = inverse_matrix_of(next);
+        last_pose_ = now;
+    }
+
+    void classify(const scene::SceneState& state) {
+        for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+            Entry& entry = entries_[e];
+            if (!entry.object.group()) {
+                entry.world_from_object = state.world_from_object(scene_.instances[entry.object.instances.front()]);
+            }
+            entry.bounds = projected(entry.object.bounds, eye_from_world_ * entry.world_from_object, camera_);
+            entry.shown = Shown::mesh;
+            if (!entry.bounds.sound || !finite(glm::inverse(entry.world_from_object))) {
+                ++counters_.bad_bounds;
+                continue;
+            }
+            const double score = object_score(entry.bounds, mesh_distance_m_);
+            if (score >= 0.0) counters_.triangles_in_view += entry.triangles;
+            if (score > 0.0) counters_.triangles_replaceable += entry.triangles;
+            if (score < 0.0) {
+                entry.shown = Shown::nothing;
+                ++counters_.out_of_view;
+            } else if (score == 0.0) {
+                ++counters_.near_meshes;
+            } else if (!entry.current) {
+                queue(creations_, score, e);
+            } else {
+                const double due = update_priority(entry);
+                if (due < 1.0) {
+                    entry.shown = Shown::billboard;
+                } else {
+                    queue(updates_, due, e);
+                }
+            }
+        }
+    }
+
+    void queue(BoundedQueue<std::uint32_t>& into, double score, std::uint32_t e) {
+        if (into.push(score, e)) ++counters_.queue_meshes;
+    }
+
+    [[nodiscard]] double update_priority(const Entry& entry) const {
+        const Version& version = *entry.current;
+        if (settings_.criterion == UpdateCriterion::angles) {
+            const BillboardPlane plane = plane_of(version.drawn.grid.window(), version.drawn.plane_m);
+            const glm::dvec3 centre_world{entry.world_from_object * version.object_from_eye_drawn *
+                                          glm::dvec4{plane.centre_eye, 1.0}};
+            const glm::dvec3 to_centre = centre_world - camera_.world_from_eye.position_m;
+            const UpdateScores scores{view_angle_deg(version.horizontal_world, right_of(camera_)),
+                                      lateral_angle_deg(version.to_centre_world, to_centre),
+                                      distance_score(version.to_centre_world, to_centre)};
+            return scores.weighted(settings_.thresholds);
+        }
+        const glm::dmat4 world_from_eye_drawn = entry.world_from_object * version.object_from_eye_drawn;
+        return std::max(error_px(version, eye_from_world_ * world_from_eye_drawn),
+                        error_px(version, next_eye_from_world_ * world_from_eye_drawn)) /
+               settings_.error_cap_px;
+    }
+
+    [[nodiscard]] double error_px(const Version& version, const glm::dmat4& eye_now_from_eye_drawn) const {
+        return settings_.mode == BillboardMode::flat ? flat_error_px(version.drawn, eye_now_from_eye_drawn, camera_)
+                                                     : warped_error_px(version.drawn, eye_now_from_eye_drawn, camera_);
+    }
+
+    void create_new() {
+        creations_.drain(chosen_);
+        begin_stage();
+        jobs_.clear();
+        for (const std::uint32_t e : chosen_) {
+            const std::optional<AtlasSlot> slot = reserve(entries_[e]);
+            if (!slot) {
+                ++counters_.atlas_meshes;
+                continue;
+            }
+            entries_[e].current = drawn_now(entries_[e], *slot);
+            entries_[e].last_shown = frame_;  // so that the next one does not push it out
+            jobs_.push_back(e);
+        }
+        counters_.created = paint_jobs();
+        counters_.create_ms = end_stage();
+    }
+
+    void update_due() {
+        updates_.drain(chosen_);
+        begin_stage();
+        jobs_.clear();
+        const std::uint64_t painted_before = counters_.triangles_painted;
+        double estimated_ms = 0.0;
+        for (const std::uint32_t e : chosen_) {
+            Entry& entry = entries_[e];
+            estimated_ms += cost_.estimated_ms(entry.triangles);
+            // Beyond twice the cap, and where it cannot be shown at all, there is no choice: the mesh costs the same.
+            if (settings_.budget_ms > 0.0 && estimated_ms > settings_.budget_ms && update_priority(entry) < 2.0) {
+                entry.shown = Shown::billboard;
+                ++counters_.stale;
+                continue;
+            }
+            renew(entry);
+            jobs_.push_back(e);
+        }
+        counters_.updated = paint_jobs();
+        counters_.update_ms = end_stage();
+        if (stage_clock_ != nullptr) {
+            cost_.observe(counters_.triangles_painted - painted_before, counters_.updated, counters_.update_ms);
+        }
+    }
+
+    /// A slot for what the entry's billboard will be.
+    std::optional<AtlasSlot> reserve(const Entry& entry) {
+        const std::size_t level = wanted_level(entry);
+        std::optional<AtlasSlot> slot = slots_.reserve(level);
+        if (slot && slot->level == level) return slot;
+        // A billboard that nobody looks at gives way before another size is taken.
+        if (!evict(level)) return slot;
+        if (slot) slots_.release(*slot);
+        return slots_.reserve(level);
+    }
+
+    [[nodiscard]] std::size_t wanted_level(const Entry& entry) const {
+        const TexelGrid grid = texel_grid(entry.bounds, camera_, settings_.texels_per_px, 1 << 20);
+        return covering_dimension(grid.size);
+    }
+
+    bool evict(std::size_t level) {
+        Entry* oldest = nullptr;
+        for (Entry& entry : entries_) {
+            if (!entry.current || entry.current->slot.level != level || entry.last_shown + 1 >= frame_) continue;
+            if (oldest == nullptr || entry.last_shown < oldest->last_shown) oldest = &entry;
+        }
+        if (oldest == nullptr) return false;
+        forget(*oldest);
+        return true;
+    }
+
+    void forget(Entry& entry) {
+        for (std::optional<Version>* version : {&entry.current, &entry.previous}) {
+            if (*version) slots_.release((*version)->slot);
+            version->reset();
+        }
+    }
+
+    /// Gives the entry a version of this frame: in its slot where the size is still right and nothing fades.
+    void renew(Entry& entry) {
+        const std::size_t level = wanted_level(entry);
+        const bool fades = settings_.fade_frames > 0;
+        AtlasSlot slot = entry.current->slot;
+        if (entry.previous) {
+            slots_.release(entry.previous->slot);
+            entry.previous.reset();
+        }
+        if (fades || slot.level != level) {
+            if (const std::optional<AtlasSlot> other = reserve(entry)) {
+                if (fades) {
+                    entry.previous = entry.current;
+                } else {
+                    slots_.release(slot);
+                }
+                slot = *other;
+            }
+        }
+        entry.fade = 0;
+        entry.current = drawn_now(entry, slot);
+        entry.last_shown = frame_;
+    }
+
+    [[nodiscard]] Version drawn_now(const Entry& entry, AtlasSlot slot) const {
+        Version version;
+        version.slot = slot;
+        version.drawn.grid =
+            texel_grid(entry.bounds, camera_, settings_.texels_per_px, kBillboardDimensions[slot.level]);
+        version.drawn.nearest_m = entry.bounds.nearest_m();
+        version.drawn.farthest_m = entry.bounds.farthest_m();
+        version.drawn.plane_m = entry.bounds.centre_m();
+        const glm::dmat4 world_from_eye = matrix_of(camera_.world_from_eye);
+        version.object_from_eye_drawn = glm::inverse(entry.world_from_object) * world_from_eye;
+        version.horizontal_world = right_of(camera_);
+        const BillboardPlane plane = plane_of(version.drawn.grid.window(), version.drawn.plane_m);
+        version.to_centre_world = glm::dmat3{world_from_eye} * plane.centre_eye;
+        return version;
+    }
+
+    /// Draws the entries of jobs_ into their slots. @return how many were drawn
+    std::uint64_t paint_jobs() {
+        std::uint64_t painted = 0;
+        for (std::size_t level = 0; level < kBillboardDimensions.size(); ++level) {
+            views_.clear();
+            cleared_.clear();
+            for (const std::uint32_t e : jobs_) {
+                const Version& version = *entries_[e].current;
+                if (version.slot.level != level) continue;
+                cleared_.push_back(version.slot.index);
+                PaintedView view = painted_view(version.drawn, atlas_.layouts()[level], version.slot.index, camera_);
+                for (const std::uint32_t instance : entries_[e].object.instances) {
+                    view.instance = instance;
+                    views_.push_back(view);
+                }
+            }
+            if (views_.empty()) continue;
+            const bool bound = atlas_.begin(level, cleared_);
+            if (bound) {
+                counters_.triangles_painted += painter_.paint(views_, camera_.world_from_eye.position_m);
+                painted += cleared_.size();
+            }
+            settle(level, bound);
+        }
+        return painted;
+    }
+
+    /// What was to be painted at `level` is shown, or was not to be had.
+    void settle(std::size_t level, bool painted) {
+        for (const std::uint32_t e : jobs_) {
+            Entry& entry = entries_[e];
+            if (!entry.current || entry.current->slot.level != level) continue;
+            if (painted) {
+                entry.shown = Shown::billboard;
+            } else {
+                forget(entry);
+                ++counters_.atlas_meshes;
+            }
+        }
+    }
+
+    void finish() {
+        for (Entry& entry : entries_) {
+            if (entry.previous && (entry.shown != Shown::billboard || entry.fade >= settings_.fade_frames)) {
+                slots_.release(entry.previous->slot);
+                entry.previous.reset();
+            }
+            if (entry.shown != Shown::billboard) continue;
+            if (!quad_of(entry, *entry.current, camera_)) {
+                // It crosses the near plane although it is not due: possible only with a cap that nothing reaches.
+                entry.shown = Shown::mesh;
+                ++counters_.near_meshes;
+                continue;
+            }
+            ++entry.fade;
+            entry.last_shown = frame_;
+            ++counters_.active;
+            ++counters_.active_by_dimension[entry.current->slot.level];
+            for (const std::uint32_t instance : entry.object.instances) replaced_[instance] = 1;
+        }
+    }
+
+    [[nodiscard]] std::optional<shader::BillboardRecord> quad_of(const Entry& entry, const Version& version,
+                                                                 const Camera& camera) const {
+        const glm::dmat4 eye_now_from_eye_drawn =
+            inverse_matrix_of(camera.world_from_eye) * entry.world_from_object * version.object_from_eye_drawn;
+        const AtlasLayout& layout = atlas_.layouts()[version.slot.level];
+        return settings_.mode == BillboardMode::flat
+                   ? flat_record(version.drawn, layout, version.slot.index, eye_now_from_eye_drawn, camera)
+                   : warped_record(version.drawn, layout, version.slot.index, eye_now_from_eye_drawn, camera);
+    }
+
+    void append(const Entry& entry, const Version& version, const Camera& part, float shown_from, float shown_to) {
+        std::optional<shader::BillboardRecord> record = quad_of(entry, version, part);
+        if (!record) return;
+        record->extent.y = shown_from;
+        record->extent.z = shown_to;
+        record->object.x = entry.object.id;
+        quads_.push_back({version.slot.level, *record});
+    }
+
+    void begin_stage() {
+        if (stage_clock_ == nullptr) return;
+        glFinish();
+        stage_begin_ = stage_clock_->now();
+    }
+    double end_stage() {
+        if (stage_clock_ == nullptr) return 0.0;
+        glFinish();
+        return to_ms(stage_clock_->now() - stage_begin_);
+    }
+
+    const scene::Scene& scene_;
+    ObjectPainter& painter_;
+    BillboardSettings settings_;
+    const Clock* stage_clock_;
+    BillboardAtlas atlas_;
+    BillboardPass pass_;
+    SlotTable slots_;
+    BoundedQueue<std::uint32_t> creations_;
+    BoundedQueue<std::uint32_t> updates_;
+    double mesh_distance_m_;
+    std::vector<std::uint8_t> replaced_;
+    std::vector<Entry> entries_;
+    BillboardCounters counters_;
+    UpdateCost cost_;
+    std::uint64_t frame_ = 1;
+
+    Camera camera_;  ///< of the frame
+    glm::dmat4 eye_from_world_{1.0};
+    glm::dmat4 next_eye_from_world_{1.0};
+    std::optional<Pose> last_pose_;
+    TimePoint stage_begin_;
+
+    std::vector<std::uint32_t> chosen_;
+    std::vector<std::uint32_t> jobs_;
+    std::vector<PaintedView> views_;
+    std::vector<int> cleared_;
+    std::vector<DrawnQuad> quads_;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<BillboardField>> BillboardField::create(const scene::Scene& scene, ObjectPainter& painter,
+                                                               const BillboardSettings& settings,
+                                                               const Clock* stage_clock) {
+    auto atlas = BillboardAtlas::create(settings.format, settings.capacities);
+    if (!atlas.ok()) return atlas.error();
+    auto pass = BillboardPass::create(settings.format, settings.expansion, settings.mode == BillboardMode::warped);
+    if (!pass.ok()) return pass.error();
+    return std::unique_ptr<BillboardField>{
+        std::make_unique<Field>(scene, painter, settings, stage_clock, std::move(*atlas), std::move(*pass))};
+}
+
+}  // namespace lw

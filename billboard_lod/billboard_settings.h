@@ -1,0 +1,42 @@
+#pragma once
+/// What can be chosen about billboards.
+
+#include <array>
+#include <cstdint>
+
+#include "billboard_lod/billboard_atlas.h"
+#include "billboard_lod/billboard_pass.h"
+#include "billboard_lod/update_criteria.h"
+
+namespace lw {
+
+enum class BillboardMode : std::uint8_t {
+    off,
+    flat,    ///< quads with the picture's axes that carry a G-buffer: seed 000
+    warped,  ///< the billboard's own depth moves its pixels
+};
+
+enum class UpdateCriterion : std::uint8_t {
+    angles,  ///< the three heuristics of seed 000
+    error,   ///< pixels
+};
+
+struct BillboardSettings {
+    BillboardMode mode = BillboardMode::off;
+    double mesh_distance_share = 0.2;  ///< objects nearer than this share of the scene's diagonal are meshes
+    std::array<int, kBillboardDimensions.size()> capacities{512, 512, 512, 512, 512, 128};
+    AtlasFormat format = AtlasFormat::packed;
+    QuadExpansion expansion = QuadExpansion::vertices;
+    UpdateCriterion criterion = UpdateCriterion::error;
+    UpdateThresholds thresholds;        ///< of the angles
+    double error_cap_px = 2.0;          ///< of the error, pixels, > 0
+    int max_creations = 64;             ///< per frame; the rest are meshes in this one
+    int max_updates = 256;              ///< per frame; the rest are meshes in this one
+    int texels_per_px = 2;              ///< a billboard's texels per pixel and axis when it is drawn; 1 or 2
+    int fade_frames = 0;                ///< frames over which an updated billboard replaces its old version; 0: at once
+    double budget_ms = 0.0;             ///< estimated time for updates and creations per frame; 0: no limit
+    std::uint64_t min_triangles = 256;  ///< objects with fewer are drawn as fast as their quads
+    bool group_touching = false;        ///< static objects whose boxes overlap share one billboard
+};
+
+}  // namespace lw

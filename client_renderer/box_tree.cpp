@@ -1,0 +1,293 @@
+#include "client_renderer/box_tree.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "client_renderer/box_tree.cpp"
+#include <hwy/foreach_target.h>
+// After foreach_target.h, as it asks.
+#include <hwy/highway.h>
+
+#include <array>
+#include <bit>
+
+#include "client_renderer/box_kernels.h"
+#include "core/check.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace lw::HWY_NAMESPACE {
+namespace {
+
+// Deeper than any tree of 2^32 items that is halved at worst in places.
+constexpr std::size_t kMostDepth = 256;
+
+/// Bits of planes of `mask` that the box is not wholly inside of; kOutside when it is wholly outside one of them.
+constexpr unsigned kOutside = 0xFFU;
+
+HWY_INLINE unsigned planes_left(const scene::BvhNode& node, const FloatFrustum& frustum, unsigned mask,
+                                std::uint8_t& last_plane) {
+    const glm::vec3 centre = 0.5F * (node.min + node.max);
+    const glm::vec3 half = 0.5F * (node.max - node.min);
+    unsigned left = mask;
+    const auto tests = [&](unsigned p) {
+        const FloatFrustum::Plane& plane = frustum.planes[p];
+        const float reach = std::abs(plane.x) * half.x + std::abs(plane.y) * half.y + std::abs(plane.z) * half.z;
+        const float place = plane.x * centre.x + plane.y * centre.y + plane.z * centre.z + plane.w;
+        const float size = std::abs(centre.x) + std::abs(centre.y) + std::abs(centre.z) + std::abs(plane.w) + reach;
+        const float rounding = kFrustumRounding * size;
+        if (place + reach < -rounding) return false;
+        if (place - reach >= rounding) left &= ~(1U << p);
+        return true;
+    };
+    if ((mask >> last_plane & 1U) != 0 && !tests(last_plane)) return kOutside;
+    for (unsigned rest = mask & ~(1U << last_plane); rest != 0; rest &= rest - 1) {
+        const auto p = static_cast<unsigned>(std::countr_zero(rest));
+        if (!tests(p)) {
+            last_plane = static_cast<std::uint8_t>(p);
+            return kOutside;
+        }
+    }
+    return left;
+}
+
+class Walk {
+public:
+    Walk(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters)
+        : bvh_{tree.bvh()},
+          boxes_{tree.boxes()},
+          last_planes_{tree.last_planes()},
+          query_{query},
+          seen_{seen},
+          counters_{counters} {}
+
+    void run() {
+        std::array<Entry, kMostDepth> stack;
+        std::size_t depth = 0;
+        stack[depth++] = {scene::Bvh::kRoot, FloatFrustum::kAllPlanes};
+        while (depth > 0) {
+            const Entry entry = stack[--depth];
+            const scene::BvhNode& node = bvh_.nodes()[entry.node];
+            ++counters_.nodes;
+            unsigned planes = entry.planes;
+            if (planes != 0) {
+                planes = planes_left(node, query_.frustum, planes, last_planes_[entry.node]);
+                if (planes == kOutside) {
+                    counters_.items_outside += bvh_.end_item(entry.node) - bvh_.first_item(entry.node);
+                    continue;
+                }
+            }
+            if (query_.occlusion != nullptr && hides(node)) {
+                counters_.items_hidden += bvh_.end_item(entry.node) - bvh_.first_item(entry.node);
+                continue;
+            }
+            const bool all_taken = planes == 0 && query_.occlusion == nullptr && !(query_.least_size_per_distance > 0);
+            if (all_taken) {
+                take(bvh_.first_item(entry.node), bvh_.end_item(entry.node));
+            } else if (node.count > 0) {
+                test(node.first, node.first + node.count, planes);
+            } else {
+                stack[depth++] = {node.first + 1, planes};
+                stack[depth++] = {node.first, planes};
+            }
+        }
+    }
+
+private:
+    struct Entry {
+        std::uint32_t node;
+        unsigned planes;
+    };
+
+    void take(std::uint32_t first, std::uint32_t end) {
+        const auto begin = bvh_.order().begin();
+        seen_.insert(seen_.end(), begin + first, begin + end);
+    }
+
+    bool hides(const scene::BvhNode& node) const {
+        const DF d;
+        const glm::vec3 centre = 0.5F * (node.min + node.max);
+        // Half of a sum of two floats may be rounded down by 6e-8 of it; project() allows for that.
+        const glm::vec3 half = 0.5F * (node.max - node.min);
+        const BoxVector box{hn::Set(d, centre.x), hn::Set(d, centre.y), hn::Set(d, centre.z),
+                            hn::Set(d, half.x),   hn::Set(d, half.y),   hn::Set(d, half.z)};
+        Projected projected;
+        project(box, query_.occlusion->view(), projected);
+        return is_hidden(*query_.occlusion, projected, 0);
+    }
+
+    void test(std::uint32_t first, std::uint32_t end, unsigned planes) {
+        const DF d;
+        const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
+        for (std::uint32_t i = first; i < end; i += lanes) {
+            const std::uint32_t count = std::min(lanes, end - i);
+            const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
+            const BoxVector boxes = load_boxes(boxes_, i);
+            counters_.items += count;
+            std::uint32_t bits = bits_of(in_frustum(boxes, query_.frustum, planes)) & all;
+            counters_.items_outside += static_cast<std::uint64_t>(std::popcount(all & ~bits));
+            if (query_.least_size_per_distance > 0) {
+                const std::uint32_t large =
+                    bits & bits_of(large_enough(boxes, query_.eye_world, query_.least_size_per_distance));
+                counters_.items_too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
+                bits = large;
+            }
+            Projected projected;
+            const bool may_hide = query_.occlusion != nullptr && bits != 0;
+            if (may_hide) project(boxes, query_.occlusion->view(), projected);
+            for (; bits != 0; bits &= bits - 1) {
+                const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
+                if (may_hide && is_hidden(*query_.occlusion, projected, lane)) {
+                    ++counters_.items_hidden;
+                } else {
+                    seen_.push_back(bvh_.order()[i + lane]);
+                }
+            }
+        }
+    }
+
+    const scene::Bvh& bvh_;
+    const BoxList& boxes_;
+    std::vector<std::uint8_t>& last_planes_;
+    const WalkQuery& query_;
+    std::vector<std::uint32_t>& seen_;
+    WalkCounters& counters_;
+};
+
+void walk_here(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters) {
+    Walk{tree, query, seen, counters}.run();
+}
+
+/// One byte per frustum: planes still to be tested, or kOutside.
+using PlaneBytes = std::array<std::uint8_t, BoxTree::kMostFrusta>;
+
+class WalkOfSeveral {
+public:
+    WalkOfSeveral(BoxTree& tree, std::span<const FloatFrustum> frusta, std::vector<SeenItem>& seen,
+                  WalkCounters& counters)
+        : bvh_{tree.bvh()}, boxes_{tree.boxes()}, frusta_{frusta}, seen_{seen}, counters_{counters} {}
+
+    void run() {
+        PlaneBytes all{};
+        all.fill(kOutside);
+        for (std::size_t f = 0; f < frusta_.size(); ++f) all[f] = FloatFrustum::kAllPlanes;
+        std::array<Entry, kMostDepth> stack;
+        std::size_t depth = 0;
+        stack[depth++] = {scene::Bvh::kRoot, all};
+        while (depth > 0) {
+            Entry entry = stack[--depth];
+            const scene::BvhNode& node = bvh_.nodes()[entry.node];
+            ++counters_.nodes;
+            bool any = false;
+            bool tests_left = false;
+            for (std::size_t f = 0; f < frusta_.size(); ++f) {
+                std::uint8_t& planes = entry.planes[f];
+                if (planes == kOutside) continue;
+                std::uint8_t first_plane = 0;
+                if (planes != 0) {
+                    planes = static_cast<std::uint8_t>(planes_left(node, frusta_[f], planes, first_plane));
+                }
+                any = any || planes != kOutside;
+                tests_left = tests_left || (planes != kOutside && planes != 0);
+            }
+            const std::uint32_t first = bvh_.first_item(entry.node);
+            const std::uint32_t end = bvh_.end_item(entry.node);
+            if (!any) {
+                counters_.items_outside += end - first;
+            } else if (!tests_left) {
+                take(first, end, entry.planes);
+            } else if (node.count > 0) {
+                test(first, end, entry.planes);
+            } else {
+                stack[depth++] = {node.first + 1, entry.planes};
+                stack[depth++] = {node.first, entry.planes};
+            }
+        }
+    }
+
+private:
+    struct Entry {
+        std::uint32_t node;
+        PlaneBytes planes;
+    };
+
+    void take(std::uint32_t first, std::uint32_t end, const PlaneBytes& planes) {
+        std::uint32_t frusta = 0;
+        for (std::size_t f = 0; f < frusta_.size(); ++f) frusta |= (planes[f] != kOutside ? 1U : 0U) << f;
+        for (std::uint32_t i = first; i < end; ++i) seen_.push_back({bvh_.order()[i], frusta});
+    }
+
+    void test(std::uint32_t first, std::uint32_t end, const PlaneBytes& planes) {
+        const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
+        for (std::uint32_t i = first; i < end; i += lanes) {
+            const std::uint32_t count = std::min(lanes, end - i);
+            const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
+            const BoxVector boxes = load_boxes(boxes_, i);
+            std::array<std::uint32_t, BoxTree::kMostFrusta> bits{};
+            std::uint32_t any = 0;
+            for (std::size_t f = 0; f < frusta_.size(); ++f) {
+                if (planes[f] == kOutside) continue;
+                bits[f] = all;
+                if (planes[f] != 0) bits[f] &= bits_of(in_frustum(boxes, frusta_[f], planes[f]));
+                any |= bits[f];
+            }
+            counters_.items += count;
+            counters_.items_outside += static_cast<std::uint64_t>(std::popcount(all & ~any));
+            for (; any != 0; any &= any - 1) {
+                const auto lane = static_cast<std::uint32_t>(std::countr_zero(any));
+                std::uint32_t frusta = 0;
+                for (std::size_t f = 0; f < frusta_.size(); ++f) frusta |= (bits[f] >> lane & 1U) << f;
+                seen_.push_back({bvh_.order()[i + lane], frusta});
+            }
+        }
+    }
+
+    const scene::Bvh& bvh_;
+    const BoxList& boxes_;
+    std::span<const FloatFrustum> frusta_;
+    std::vector<SeenItem>& seen_;
+    WalkCounters& counters_;
+};
+
+void walk_several_here(BoxTree& tree, std::span<const FloatFrustum> frusta, std::vector<SeenItem>& seen,
+                       WalkCounters& counters) {
+    WalkOfSeveral{tree, frusta, seen, counters}.run();
+}
+
+}  // namespace
+}  // namespace lw::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace lw {
+
+HWY_EXPORT(walk_here);
+HWY_EXPORT(walk_several_here);
+
+BoxTree::BoxTree(std::span<const scene::Bounds> boxes) : bvh_{boxes}, last_planes_(bvh_.nodes().size(), 0) {
+    boxes_.resize(bvh_.order().size());
+    for (std::size_t i = 0; i < bvh_.order().size(); ++i) boxes_.set(i, boxes[bvh_.order()[i]]);
+}
+
+void BoxTree::move(std::span<const std::uint32_t> moved, std::span<const scene::Bounds> boxes) {
+    bvh_.refit(moved, boxes);
+    for (const std::uint32_t item : moved) {
+        const std::uint32_t place = bvh_.place_of(item);
+        if (place != scene::Bvh::kNone) boxes_.set(place, boxes[item]);
+    }
+}
+
+void BoxTree::append_seen(const WalkQuery& query, std::vector<std::uint32_t>& seen) {
+    counters_ = {};
+    if (bvh_.empty()) return;
+    HWY_DYNAMIC_DISPATCH(walk_here)(*this, query, seen, counters_);
+}
+
+void BoxTree::append_seen(std::span<const Frustum> frusta, std::vector<SeenItem>& seen) {
+    LW_CHECK(frusta.size() <= kMostFrusta, "too many frusta for one walk");
+    counters_ = {};
+    if (bvh_.empty()) return;
+    std::vector<FloatFrustum> single;
+    for (const Frustum& frustum : frusta) single.push_back(rounded(frustum));
+    HWY_DYNAMIC_DISPATCH(walk_several_here)(*this, single, seen, counters_);
+}
+
+}  // namespace lw
+#endif

@@ -1,0 +1,73 @@
+#pragma once
+/// The hierarchical test of many boxes: whole subtrees in or out of view, or hidden, at one test.
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "client_renderer/box_list.h"
+#include "client_renderer/frustum.h"
+#include "client_renderer/occlusion_buffer.h"
+#include "scene/bvh.h"
+
+namespace lw {
+
+/// An item and the frusta that may see it, one bit each.
+struct SeenItem {
+    std::uint32_t item = 0;
+    std::uint32_t frusta = 0;
+};
+
+/// What a walk did.
+struct WalkCounters {
+    std::uint64_t nodes = 0;            ///< visited
+    std::uint64_t items = 0;            ///< tested one by one
+    std::uint64_t items_outside = 0;    ///< out of view, one by one or with their subtree
+    std::uint64_t items_hidden = 0;     ///< behind occluders, one by one or with their subtree
+    std::uint64_t items_too_small = 0;  ///< below the pixel size asked for
+};
+
+/// What a view needs of the boxes.
+struct WalkQuery {
+    FloatFrustum frustum;
+    const OcclusionBuffer* occlusion = nullptr;  ///< finished; null: nothing is hidden
+    std::array<float, 3> eye_world{};            ///< for sizes
+    /// Boxes whose bounding sphere looks smaller than this across are left out: metres per metre of distance. 0: none.
+    float least_size_per_distance = 0.0F;
+};
+
+/// Boxes in a hierarchy with sixteen and fewer per leaf, one wide vector each. Plane masking: a plane that a node lies
+/// inside is not tested again below it; what lies inside all of them is taken without tests. Last plane first: the
+/// plane that rejected a node in the last walk is tried first (seed 002, section 19.4). One thread at a time.
+class BoxTree {
+public:
+    static constexpr std::size_t kMostFrusta = 8;
+
+    explicit BoxTree(std::span<const scene::Bounds> boxes);
+
+    /// Fits the hierarchy to items that moved; `boxes` are those of all items.
+    void move(std::span<const std::uint32_t> moved, std::span<const scene::Bounds> boxes);
+
+    /// Appends the items that may be seen, in no particular order. As may_see(), it may keep one that is not in view or
+    /// is hidden, never leave out one that is seen.
+    void append_seen(const WalkQuery& query, std::vector<std::uint32_t>& seen);
+
+    /// The same for up to kMostFrusta frusta in one walk: both eyes, the faces of a cube. An item appears once.
+    void append_seen(std::span<const Frustum> frusta, std::vector<SeenItem>& seen);
+
+    [[nodiscard]] const WalkCounters& counters() const { return counters_; }  ///< of the last walk
+    [[nodiscard]] const scene::Bvh& bvh() const { return bvh_; }
+    /// In the order of the hierarchy.
+    [[nodiscard]] const BoxList& boxes() const { return boxes_; }
+    /// By node, for the walk.
+    [[nodiscard]] std::vector<std::uint8_t>& last_planes() { return last_planes_; }
+
+private:
+    scene::Bvh bvh_;
+    BoxList boxes_;
+    std::vector<std::uint8_t> last_planes_;
+    WalkCounters counters_;
+};
+
+}  // namespace lw

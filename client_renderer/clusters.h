@@ -1,0 +1,89 @@
+#pragma once
+/// Meshes cut into clusters of about a hundred triangles that are skipped one by one: out of view, hidden, or turned
+/// away.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "client_renderer/box_list.h"
+#include "client_renderer/frustum.h"
+#include "client_renderer/occlusion_buffer.h"
+#include "scene/scene.h"
+
+namespace lw {
+
+/// Clusters of one part of a mesh: a range of Clusters.
+struct ClusterRange {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// Neighbouring clusters of a part that are drawn: a range of the part's indices, counted from its first.
+struct IndexRun {
+    std::uint32_t first = 0;
+    std::uint32_t count = 0;
+};
+
+/// What became of clusters.
+struct ClusterCounters {
+    std::uint64_t tested = 0;
+    std::uint64_t outside = 0;
+    std::uint64_t turned_away = 0;
+    std::uint64_t occluded = 0;
+    std::uint64_t too_small = 0;
+};
+
+/// What is known of a view when clusters are tested.
+struct ClusterView {
+    Frustum frustum_world;
+    glm::dvec3 eye_world{0.0};
+    double reveal_margin_m = 0.0;
+    const OcclusionBuffer* occlusion = nullptr;  ///< finished; null: nothing is hidden
+    double least_size_per_distance = 0.0;        ///< clusters that look smaller are left out, as WalkQuery says
+};
+
+/// One thread at a time.
+class Clusters {
+public:
+    static constexpr std::size_t kMostVertices = 64;
+    static constexpr std::size_t kMostTriangles = 96;  ///< a multiple of four, as the cutting asks
+    /// Parts of fewer triangles stay whole: they would be a single cluster or two.
+    static constexpr std::size_t kSmallestPart = 2 * kMostTriangles;
+
+    /// Cuts a part and puts its indices in the order of its clusters; the triangles stay the same. A part too small is
+    /// left as it is, with an empty range.
+    /// @param indices      triangles, into `vertices`; every index is valid
+    /// @param double_sided  its clusters are never turned away
+    ClusterRange add(std::span<const scene::Vertex> vertices, std::span<std::uint32_t> indices, bool double_sided);
+
+    /// Ends adding.
+    void finish();
+
+    /// Appends the runs of a part that an instance shows. It may keep what is not seen, never leave out what is.
+    void append_runs(const ClusterRange& range, const glm::dmat4& world_from_object, const ClusterView& view,
+                     std::vector<IndexRun>& runs);
+
+    [[nodiscard]] ClusterCounters& counters() { return counters_; }
+
+    /// By cluster: all of its triangles are turned away from an eye when dot(axis, apex - eye) >= cutoff *
+    /// |apex - eye|. A cutoff above 1: never.
+    struct Cone {
+        glm::vec3 apex_object{0.0F};
+        glm::vec3 axis_object{0.0F};
+        float cutoff = 2.0F;
+    };
+    [[nodiscard]] const std::vector<Cone>& cones() const { return cones_; }
+    [[nodiscard]] const BoxList& boxes() const { return boxes_; }
+
+private:
+    std::vector<scene::Bounds> bounds_;         ///< object space
+    std::vector<Cone> cones_;                   ///< the same clusters
+    std::vector<std::uint32_t> first_indices_;  ///< of each cluster in its part
+    std::vector<std::uint32_t> index_counts_;
+    BoxList boxes_;
+    std::vector<std::uint8_t> drawn_;
+    ClusterCounters counters_;
+};
+
+}  // namespace lw

@@ -1,0 +1,110 @@
+#version 450 core
+// Copies a billboard's surface into the scene's G-buffer and corrects its depth. Flat: the quad's texel, as deep as it
+// was behind or before the plane. Warped: the texel that belongs here, found along the pixel's ray.
+#include "billboard_blocks.h"
+#include "billboards/packed_surface.glsl"
+
+uniform float u_near_m;
+
+layout(binding = kUnitAtlasDepth) uniform sampler2D u_depth;
+#ifdef PACKED
+layout(binding = kUnitAtlasSurface) uniform usampler2D u_surface;
+#else
+layout(binding = kUnitAtlasSurface) uniform sampler2D u_albedo_roughness;
+layout(binding = kUnitAtlasNormal) uniform sampler2D u_normal;
+layout(binding = kUnitAtlasEmissive) uniform sampler2D u_emissive_metallic;
+#endif
+
+#ifdef WARPED
+noperspective in vec3 v_texel_from_ray;
+flat in vec4 v_relief;
+flat in vec2 v_range;
+#else
+noperspective in vec2 v_texel;
+#endif
+flat in vec4 v_slot;
+flat in vec3 v_depth;
+flat in vec2 v_shown;
+flat in uint v_object_id;
+
+layout(location = 0) out vec4 o_albedo_roughness;
+layout(location = 1) out vec2 o_normal;
+layout(location = 2) out vec4 o_emissive_metallic;
+layout(location = 3) out uint o_object_id;
+
+#ifdef DITHERED
+// Two versions of a billboard share a pixel's neighbourhood by this order; each level occurs once in 4 x 4.
+float dither_level() {
+    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
+    uint x = p.x ^ p.y;
+    uint level = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | ((p.y & 2u) >> 1);
+    return (float(level) + 0.5) * (1.0 / 16.0);
+}
+#endif
+
+void main() {
+    ivec2 first = ivec2(v_slot.xy);
+    vec2 size = v_slot.zw;
+
+#ifdef WARPED
+    // Along the pixel's ray, at inverse distance q: texel = (a + q b).xy / (a + q b).z, and the ray is q / (a + q b).z
+    // away from the eye that drew the billboard, in inverse distance.
+    vec3 a = v_texel_from_ray;
+    vec3 b = v_relief.xyz;
+    int steps = int(v_relief.w);
+    float q_step = (v_range.y - v_range.x) / float(steps);
+    float tolerance = 0.75 * abs(q_step);
+    float q = 0.0;
+    ivec2 texel = ivec2(0);
+    for (int i = 0; i < steps; ++i) {
+        float q_try = v_range.x + (float(i) + 0.5) * q_step;
+        vec3 s = a + q_try * b;
+        vec2 place = floor(s.xy / s.z);
+        ivec2 found = first + ivec2(clamp(place, vec2(0.0), size - 1.0));
+        float stored = texelFetch(u_depth, found, 0).r;
+        float inverse_drawn = stored * v_depth.x + v_depth.y;
+        // Where on the ray that surface would be, were it at this texel.
+        float q_found = inverse_drawn * a.z / (1.0 - inverse_drawn * b.z);
+        bool hit = stored > 0.0 && place == clamp(place, vec2(0.0), size - 1.0) &&
+                   abs(q_found - q_try) <= tolerance;
+        if (hit && q == 0.0) {
+            q = q_found;
+            texel = found;
+        }
+    }
+    if (q <= 0.0) discard;
+    // One step of a fixed-point search: the surface lies a little before or behind the step that found it.
+    vec3 s = a + q * b;
+    vec2 place = floor(s.xy / s.z);
+    ivec2 refined = first + ivec2(clamp(place, vec2(0.0), size - 1.0));
+    float stored = texelFetch(u_depth, refined, 0).r;
+    float inverse_drawn = stored * v_depth.x + v_depth.y;
+    float q_refined = inverse_drawn * a.z / (1.0 - inverse_drawn * b.z);
+    if (stored > 0.0 && abs(q_refined - q) <= 2.0 * tolerance) {
+        q = q_refined;
+        texel = refined;
+    }
+    gl_FragDepth = u_near_m * q;
+#else
+    ivec2 texel = first + ivec2(clamp(v_texel, vec2(0.0), size - 1.0));
+    float stored = texelFetch(u_depth, texel, 0).r;
+    if (stored == 0.0) discard;
+    float distance_m = 1.0 / (stored * v_depth.x + v_depth.y) + v_depth.z;
+    if (distance_m < u_near_m) discard;
+    gl_FragDepth = u_near_m / distance_m;
+#endif
+
+#ifdef DITHERED
+    float level = dither_level();
+    if (level < v_shown.x || level >= v_shown.y) discard;
+#endif
+
+#ifdef PACKED
+    unpack_surface(texelFetch(u_surface, texel, 0).rg, o_albedo_roughness, o_normal, o_emissive_metallic);
+#else
+    o_albedo_roughness = texelFetch(u_albedo_roughness, texel, 0);
+    o_normal = texelFetch(u_normal, texel, 0).rg;
+    o_emissive_metallic = texelFetch(u_emissive_metallic, texel, 0);
+#endif
+    o_object_id = v_object_id;
+}

@@ -1,0 +1,73 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/billboard_bench_report.h"
+
+namespace lw {
+namespace {
+
+SweepPoint sweep_point(const char* mode, double redraws, double flip) {
+    SweepPoint point;
+    point.mode = mode;
+    point.criterion = "error";
+    point.redraws_per_frame = redraws;
+    point.flip = flip;
+    return point;
+}
+
+TrialFrame frame_of(double ms, std::uint64_t updated, std::uint64_t replaceable) {
+    TrialFrame frame;
+    frame.frame_ms = ms;
+    frame.update_ms = static_cast<double>(updated) * 0.5;
+    frame.counters.updated = updated;
+    frame.counters.triangles_in_view = 100;
+    frame.counters.triangles_replaceable = replaceable;
+    return frame;
+}
+
+TEST(BillboardBench, RedrawsForAFlipAreInterpolated) {
+    const std::vector<SweepPoint> curve{sweep_point("flat", 100, 0.01), sweep_point("flat", 10, 0.04),
+                                        sweep_point("flat", 40, 0.02)};
+    EXPECT_DOUBLE_EQ(*redraws_for_flip(curve, 0.03), 25.0);
+    EXPECT_DOUBLE_EQ(*redraws_for_flip(curve, 0.015), 70.0);
+    EXPECT_FALSE(redraws_for_flip(curve, 0.005).has_value()) << "flatter than flat quads get";
+    EXPECT_FALSE(redraws_for_flip({}, 0.02).has_value());
+}
+
+TEST(BillboardBench, FiguresCountOnlyEligibleFrames) {
+    BillboardBench bench;
+    bench.path.meshes = {frame_of(100, 0, 0), frame_of(100, 0, 0), frame_of(100, 0, 0), frame_of(100, 0, 0)};
+    bench.path.trials = {
+        {"ours", {frame_of(10, 3, 100), frame_of(25, 64, 80), frame_of(90, 65, 100), frame_of(95, 0, 79)}}};
+    bench.path.quality = {{0.0, 0.9, 0.95, 0.98}, {1.0, 0.96, 0.95, 0.94}};
+    const BillboardFigures figures = figures_of(bench);
+    EXPECT_EQ(figures.eligible, 2U) << "too many updates, too few replaceable triangles";
+    EXPECT_DOUBLE_EQ(figures.speedup_min_eligible, 4.0);
+    EXPECT_DOUBLE_EQ(figures.speedup_best_100, 100.0 / 95.0) << "fewer than 100 frames: the least of all";
+    EXPECT_NEAR(figures.ssim_mean, 0.96, 1e-12);
+    EXPECT_DOUBLE_EQ(figures.ssim_min, 0.94);
+    EXPECT_DOUBLE_EQ(figures.warped_better, 0.5);
+}
+
+ColourImage grey(int level) {
+    return ColourImage{{8, 8},
+                       Rgba8{static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(level),
+                             static_cast<std::uint8_t>(level), 255}};
+}
+
+TEST(BillboardBench, FlickerIsChangeBeyondTheTruths) {
+    EXPECT_EQ(flicker_energy(grey(10), grey(10), grey(10), grey(90)), 0.0) << "too little change is no flicker";
+    EXPECT_EQ(flicker_energy(grey(10), grey(61), grey(10), grey(61)), 0.0);
+    EXPECT_NEAR(flicker_energy(grey(0), grey(102), grey(0), grey(51)), 0.2 * 0.2, 1e-12);
+    // A checker of single pixels that swaps sides looks the same from cell to cell.
+    ColourImage even = grey(0);
+    ColourImage odd = grey(0);
+    for (int y = 0; y < 8; ++y) {
+        for (int x = 0; x < 8; ++x) ((x + y) % 2 == 0 ? even : odd).at(x, y) = {255, 255, 255, 255};
+    }
+    EXPECT_NEAR(flicker_energy(even, odd, grey(0), grey(0)), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace lw

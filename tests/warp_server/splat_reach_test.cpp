@@ -1,0 +1,166 @@
+/// What `splat` works out before it places points: blocks and tiles of a layer, and where their points can land.
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "tests/warp_server/analytic_scene.h"
+#include "warp_server/methods/splat_footprint.h"
+#include "warp_server/methods/splat_reach.h"
+#include "warp_server/methods/splat_tiles.h"
+
+namespace lw::test {
+namespace {
+
+// 64 x 32 pixels of object 0 at depth 0.1: one tile wide, two bands high.
+CpuPixels flat_pixels() {
+    const glm::ivec2 size_px{64, 32};
+    return {ColourImage{size_px}, DepthImage{size_px, 0.1F}, ObjectIdImage{size_px, ObjectId{0}}};
+}
+
+BlockKind kind_at(const SplatTiles& tiles, int x, int y) {
+    return tiles.kinds[static_cast<std::size_t>(y * tiles.blocks_per_row + x / kBlockWidth_px)];
+}
+
+TEST(SplatTiles, BlocksAwayFromBordersOfImageAndObjectsAreUniform) {
+    const auto tiles = tiles_of(flat_pixels());
+    EXPECT_EQ(tiles->bands(), 2);
+    EXPECT_EQ(kind_at(*tiles, 16, 1), BlockKind::uniform);
+    EXPECT_EQ(kind_at(*tiles, 32, 30), BlockKind::uniform);
+    EXPECT_EQ(kind_at(*tiles, 0, 1), BlockKind::mixed);    // the image ends beside it
+    EXPECT_EQ(kind_at(*tiles, 16, 0), BlockKind::mixed);   // and above
+    EXPECT_EQ(kind_at(*tiles, 16, 31), BlockKind::mixed);  // and below
+}
+
+TEST(SplatTiles, AnotherObjectMakesEveryBlockItTouchesMixed) {
+    CpuPixels pixels = flat_pixels();
+    pixels.object_id.at(31, 10) = 7;  // last pixel of its block
+    const auto tiles = tiles_of(pixels);
+    for (const int y : {9, 10, 11}) EXPECT_EQ(kind_at(*tiles, 16, y), BlockKind::mixed) << y;
+    EXPECT_EQ(kind_at(*tiles, 32, 10), BlockKind::mixed);  // its left neighbour is the pixel
+    EXPECT_EQ(kind_at(*tiles, 32, 11), BlockKind::uniform);
+    EXPECT_EQ(kind_at(*tiles, 16, 8), BlockKind::uniform);
+    ASSERT_EQ(tiles->first_patch[1] - tiles->first_patch[0], 2);  // object 0 and object 7
+    EXPECT_EQ(tiles->pixels_of_object[7].all, 1U);
+}
+
+TEST(SplatTiles, BadDepthsAreCountedAndLeftOutOfPatches) {
+    CpuPixels pixels = flat_pixels();
+    pixels.depth.at(20, 4) = std::numeric_limits<float>::quiet_NaN();
+    pixels.depth.at(21, 4) = 7.0F;
+    pixels.depth.at(22, 4) = -0.5F;
+    const auto tiles = tiles_of(pixels);
+    EXPECT_EQ(kind_at(*tiles, 16, 4), BlockKind::mixed);
+    EXPECT_EQ(tiles->pixels_of_object[0].unusable, 3U);
+    ASSERT_EQ(tiles->patches.size(), 2U);
+    EXPECT_EQ(tiles->patches[0].least_depth, 0.1F);
+    EXPECT_EQ(tiles->patches[0].greatest_depth, 0.1F);
+}
+
+TEST(SplatTiles, SkyIsEmptyAndAMoverAtInfinityIsNot) {
+    CpuPixels pixels = flat_pixels();
+    for (float& depth : pixels.depth.pixels()) depth = 0.0F;
+    for (int x = 32; x < 48; ++x) pixels.object_id.at(x, 20) = 3;
+    const auto tiles = tiles_of(pixels);
+    EXPECT_EQ(kind_at(*tiles, 16, 20), BlockKind::empty);
+    EXPECT_EQ(tiles->background_in(0, 32, 20), BackgroundShare::all);
+    EXPECT_EQ(tiles->background_in(0, 33, 20), BackgroundShare::some);
+    EXPECT_EQ(tiles->background_in(32, 48, 20), BackgroundShare::none);
+    EXPECT_EQ(kind_at(*tiles, 32, 20), BlockKind::mixed);
+    EXPECT_EQ(tiles->points[0], 0);
+    EXPECT_EQ(tiles->points[1], 16);
+}
+
+struct Built {
+    std::shared_ptr<const SplatTiles> tiles;
+    ObjectMatrices matrices;
+    SplatReach reach;
+};
+
+Built reach_of(const Layer& layer, const WarpTarget& target) {
+    Built built;
+    built.tiles = tiles_of(layer.cpu());
+    built.matrices.build(layer, target);
+    built.reach.build(*built.tiles, built.matrices, target.camera.size_px);
+    return built;
+}
+
+// Every source pixel that lands in the picture lands, with its largest extent, in the rows its band was given, and its
+// tile is not left out.
+void expect_all_points_within(const Layer& layer, const WarpTarget& target) {
+    const Built built = reach_of(layer, target);
+    const CpuPixels& pixels = layer.cpu();
+    const glm::ivec2 size_px = target.camera.size_px;
+    for (int y = 0; y < pixels.depth.height(); ++y) {
+        const RowRange rows = built.reach.rows_of_band(y / kBandHeight_px);
+        for (int x = 0; x < pixels.depth.width(); ++x) {
+            const ObjectId id = pixels.object_id.at(x, y);
+            if (id == 0 && pixels.depth.at(x, y) == 0.0F) continue;
+            const auto* matrix = built.matrices.exact().find(id);
+            if (matrix == nullptr) continue;
+            const auto placed = reproject(*matrix, {x + 0.5, y + 0.5}, pixels.depth.at(x, y));
+            if (!placed || placed->depth > 1.0) continue;
+            const glm::dvec2 at = placed->position_px;
+            const double extent = kLargestHalfExtentPx;
+            if (at.x + extent < 0.0 || at.x - extent > size_px.x) continue;
+            if (at.y + extent < 0.0 || at.y - extent > size_px.y) continue;
+            ASSERT_LE(rows.begin, std::max(0.0, at.y - extent)) << x << ", " << y;
+            ASSERT_GE(rows.end, std::min<double>(size_px.y, at.y + extent)) << x << ", " << y;
+            ASSERT_EQ(built.reach.outside(y / kBandHeight_px)[static_cast<std::size_t>(x / kTileWidth_px)], 0);
+        }
+    }
+}
+
+TEST(SplatReach, HoldsEveryPointAtAnyPose) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({200, 150});
+    const Layer layer = scene.draw(source, 0.0);
+    const std::vector<ObjectTransform> movers = scene.movers(0.1);
+    for (const glm::dvec3& turn_deg : {glm::dvec3{0.0}, {3.0, 1.0, 2.0}, {40.0, -20.0, 30.0}, {0.0, 0.0, 180.0}}) {
+        for (const glm::dvec3& offset_m : {glm::dvec3{0.0}, {0.1, 0.05, -0.3}, {0.0, -1.2, -4.0}, {2.0, 8.0, 3.0}}) {
+            SCOPED_TRACE(::testing::Message() << turn_deg.x << " degrees, " << offset_m.z << " m");
+            expect_all_points_within(layer, {moved(source, offset_m, turn_deg.x, turn_deg.y, turn_deg.z), movers});
+        }
+    }
+}
+
+TEST(SplatReach, FewRowsAreInFlightWhileTheHeadIsStill) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({512, 512});
+    const Layer layer = scene.draw(source, 0.0);
+    // A band of 16 rows with the margins of 3 px for extents and rounding above and below, and the row that they cut.
+    EXPECT_LE(reach_of(layer, {source, scene.movers(0.0)}).reach.rows_in_flight(), 16 + 2 * 4);
+}
+
+TEST(SplatReach, LeavesOutWhatTheHeadTurnedAwayFrom) {
+    const AnalyticScene scene = AnalyticScene::wall(2.0);
+    const Camera source = street_camera({256, 256});
+    const Layer layer = scene.draw(source, 0.0);
+    const int all = 4 * 16;
+    EXPECT_EQ(reach_of(layer, {source, {}}).reach.tiles_outside(), 0);
+    EXPECT_EQ(reach_of(layer, {moved(source, {}, 150.0), {}}).reach.tiles_outside(), all);
+    const int turned = reach_of(layer, {moved(source, {}, 40.0), {}}).reach.tiles_outside();
+    EXPECT_GE(turned, all / 4);  // what lay more than 5 degrees off to one side is gone: one column of tiles and more
+    EXPECT_LT(turned, all);
+}
+
+TEST(SplatReach, SharesMeetAndCoverAllRows) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({160, 121});
+    const Layer layer = scene.draw(source, 0.0);
+    for (const double roll_deg : {0.0, 90.0, 180.0}) {
+        const Built built = reach_of(layer, {moved(source, {}, 5.0, 0.0, roll_deg), scene.movers(0.1)});
+        for (const int count : {1, 2, 3, 16}) {
+            int next = 0;
+            for (int i = 0; i < count; ++i) {
+                const RowRange rows = built.reach.share(*built.tiles, i, count);
+                EXPECT_EQ(rows.begin, next) << i << " of " << count;
+                next = rows.end;
+            }
+            EXPECT_EQ(next, 121);
+        }
+    }
+}
+
+}  // namespace
+}  // namespace lw::test

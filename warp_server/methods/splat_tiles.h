@@ -1,0 +1,68 @@
+#pragma once
+/// What `splat` works out once per layer: which runs of pixels need no second look, and what every tile can reach.
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "frame_link/rendered_frame.h"
+
+namespace lw {
+
+/// Pixels are looked at in blocks of 16 in one row; 4 blocks by 16 rows are a tile, and a row of tiles is a band.
+inline constexpr int kBlockWidth_px = 16;
+inline constexpr int kTileWidth_px = 64;
+inline constexpr int kBandHeight_px = 16;
+
+enum class BlockKind : std::uint8_t {
+    empty,    ///< background of object 0 alone: nothing to place
+    uniform,  ///< all depths usable and one object, the pixels around the block included
+    mixed,    ///< anything else; each pixel must be asked
+};
+
+/// How many pixels of a block are background of object 0.
+enum class BackgroundShare : std::uint8_t { none, some, all };
+
+/// The part of one object inside one tile.
+struct TilePatch {
+    int tile = 0;  ///< column of the tile in its band
+    ObjectId object = 0;
+    float least_depth = 1.0F;     ///< over its usable pixels
+    float greatest_depth = 0.0F;  ///< over its usable pixels
+};
+
+/// How many pixels of the layer an object has, background left out.
+struct ObjectPixels {
+    std::uint64_t all = 0;
+    std::uint64_t unusable = 0;  ///< of them, with a depth that is NaN or outside [0, 1]
+};
+
+/// Immutable, any thread.
+struct SplatTiles final : PreparedLayer {
+    glm::ivec2 size_px{0};
+    int blocks_per_row = 0;
+    std::vector<BlockKind> kinds;                ///< by row, blocks_per_row each
+    std::vector<BackgroundShare> background;     ///< by row, like kinds
+    std::vector<ObjectId> objects;               ///< of uniform blocks; else the object of the block's first pixel
+    std::vector<TilePatch> patches;              ///< by band
+    std::vector<int> first_patch;                ///< of every band, and one more entry for the end
+    std::vector<int> points;                     ///< of every band: pixels that are not background
+    std::vector<ObjectPixels> pixels_of_object;  ///< by id, up to the largest id there is
+
+    /// What the blocks of the pixels [begin_x, end_x) of row y hold. 0 <= begin_x < end_x <= width.
+    [[nodiscard]] BackgroundShare background_in(int begin_x, int end_x, int y) const {
+        const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(blocks_per_row);
+        BackgroundShare all = background[row + static_cast<std::size_t>(begin_x / kBlockWidth_px)];
+        for (int block = begin_x / kBlockWidth_px + 1; block * kBlockWidth_px < end_x; ++block) {
+            if (background[row + static_cast<std::size_t>(block)] != all) all = BackgroundShare::some;
+        }
+        return all;
+    }
+    [[nodiscard]] int bands() const { return static_cast<int>(points.size()); }
+    [[nodiscard]] int tiles_per_band() const { return (size_px.x + kTileWidth_px - 1) / kTileWidth_px; }
+};
+
+/// Reads depths and ids once.
+[[nodiscard]] std::shared_ptr<const SplatTiles> tiles_of(const CpuPixels& pixels);
+
+}  // namespace lw

@@ -13,7 +13,7 @@ namespace lw {
 inline constexpr float kAcceptedErrorPx = 1.0F;
 
 /// A search that came this close is over: far less than what another step could show in 8 bits.
-inline constexpr float kCloseEnoughPx = 1.0F / 256.0F;
+inline constexpr float kCloseEnoughPx = 1.0F / 4096.0F;
 
 struct InverseInput {
     const CpuPixels* pixels = nullptr;

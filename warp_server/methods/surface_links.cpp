@@ -118,7 +118,7 @@ void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links) {
 // One pixel of a block against its plane.
 bool is_on_plane(const CpuPixels& pixels, const BlockToTest& block, std::size_t at, float expected) {
     const float depth = pixels.depth.pixels()[at];
-    return is_usable_depth(depth) && std::abs(depth - expected) <= kPlaneDepthPart * depth &&
+    return is_usable_depth(depth) && std::abs(depth - expected) <= block.tolerance * depth &&
            pixels.object_id.pixels()[at] == block.id;
 }
 
@@ -146,7 +146,7 @@ HWY_INLINE std::uint32_t on_plane(D d, const CpuPixels& pixels, const BlockToTes
     const auto id = hn::PromoteTo(di, hn::LoadU(d16, pixels.object_id.pixels().data() + at));
     const auto off = hn::Abs(hn::Sub(depth, hn::Add(hn::Set(d, first_depth), step)));
     // Nothing else need be asked: a negative depth allows nothing, and one above 1 or NaN fails below.
-    auto on = hn::And(hn::Le(off, hn::Mul(hn::Set(d, kPlaneDepthPart), depth)), hn::Le(depth, hn::Set(d, 1.0F)));
+    auto on = hn::And(hn::Le(off, hn::Mul(hn::Set(d, block.tolerance), depth)), hn::Le(depth, hn::Set(d, 1.0F)));
     on = hn::And(on, hn::RebindMask(d, hn::Eq(id, hn::Set(di, std::int32_t{block.id}))));
     return bits_of(d, on) & ((1U << asked) - 1U);
 }

@@ -6,6 +6,7 @@
 #include "core/image.h"
 #include "core/object_transform.h"
 #include "frame_link/rendered_frame.h"
+#include "warp_server/methods/surface_tolerances.h"
 
 namespace lw {
 
@@ -64,8 +65,9 @@ struct BlockToTest {
     float depth = 0.0F;  ///< at the first pixel
     float gradient_x = 0.0F;
     float gradient_y = 0.0F;
+    float tolerance = kPlaneDepthPart;  ///< how far off the plane a pixel may be, as a part of its depth
 };
-/// Are all pixels of the block, which lies in the image, of its object and within kPlaneDepthPart of its plane?
+/// Are all pixels of the block, which lies in the image, of its object and on its plane?
 [[nodiscard]] bool block_is_plane(const CpuPixels& pixels, const BlockToTest& block);
 
 /// Which of them are: bit `column` of `rows[row]`. At most 16 columns.

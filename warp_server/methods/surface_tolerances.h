@@ -14,6 +14,9 @@ inline constexpr float kSlopeChangePart = 0.5F;
 /// A pixel of a patch may lie off the patch's plane by this part of its depth: 0.05 px for 10 cm of motion at 1 m.
 inline constexpr float kPlaneDepthPart = 1e-3F;
 
+/// The same where planes meet: pixels near a crease are on their own plane and almost on the other one.
+inline constexpr float kMeetingPlanesDepthPart = 1e-5F;
+
 /// How far a piece reaches beyond its first and its last cell, in source pixels.
 struct PatchOverlap {
     float before_px = 0.0F;

@@ -66,7 +66,9 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
             continue;
         }
         method_->warp(*layer, usable, first_camera != nullptr ? layer_frame_ : display_frame_);
-        counters_.bad_depth += method_->counters().bad_depth;
+        // Pixels that hold nothing are none that are bad.
+        counters_.bad_depth +=
+            method_->counters().bad_depth - std::min(method_->counters().bad_depth, layer->empty_pixels);
         counters_.unknown_object += method_->counters().unknown_object;
         if (first_camera != nullptr) merge_nearest(layer_frame_, display_frame_);
         if (first_camera == nullptr) first_camera = &layer->camera;

@@ -18,6 +18,10 @@ public:
         add_load(camera, scene_time_s);
         renderer_->draw_resolved(camera, scene_time_s, samples_per_axis, pixels);
     }
+    std::uint64_t draw_part(const Camera& camera, double scene_time_s, int samples_per_axis, const ScenePart& part,
+                            CpuPixels& pixels) override {
+        return renderer_->draw_part(camera, scene_time_s, samples_per_axis, part, pixels);
+    }
     [[nodiscard]] TexturePixels draw_to_textures(const Camera& camera, double scene_time_s,
                                                  int samples_per_axis) override {
         add_load(camera, scene_time_s);

@@ -360,12 +360,21 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     if (textures_ && options_.inject.app_ms) {
         return Error{"frames in textures cannot be delayed", "--inject app", "choose a CPU --method"};
     }
+    if (textures_ && options_.source.layers > 1) {
+        return Error{"a hidden layer cannot be handed over in textures yet", "--layers 2", "choose a CPU --method"};
+    }
     // The driver compiles at the first draw; that is no frame of the run.
     Camera camera = options_.camera();
     camera.world_from_eye = trace_.at(0.0);
     CpuPixels pixels;
     renderer->use_billboards(true);
     renderer->draw_resolved(camera, 0.0, options_.source.samples_per_axis, pixels);
+    if (options_.source.layers > 1) {
+        const DepthImage limits{camera.size_px, 1.0F};
+        ScenePart behind;
+        behind.behind = &limits;
+        renderer->draw_part(camera, 0.0, options_.source.samples_per_axis, behind, pixels);
+    }
     return Done{};
 }
 
@@ -383,7 +392,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     settings.reveal_margin_m = options_.reveal_margin_m;
     settings.min_pixels = options_.culling.min_pixels;
     const auto prepare = [this](Layer& layer) {
-        result_.source_views.push_back({layer.camera, layer.scene_time_s});
+        if (layer.name == "main") result_.source_views.push_back({layer.camera, layer.scene_time_s});
         warper_->prepare(layer);
     };
     client_loop_.emplace(renderer, clock_, head(), client_exchange(), std::move(client_predictor_), prepare, settings);

@@ -11,6 +11,9 @@ void declare_bench_run(Declarer& declare);
 /// --error-cap, --budget-ms, --bench-data: what `--method auto` chooses by.
 void declare_autotune(Declarer& declare);
 
+/// --layers: what a frame of the client consists of.
+void declare_layers(Declarer& declare);
+
 /// --billboards and --billboard-*: which objects the client draws as billboards, and how.
 void declare_billboards(Declarer& declare);
 

@@ -220,6 +220,7 @@ void declare_live(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, true);
+    declare_layers(declare);
     declare_skip(declare);
     declare_billboards(declare);
     declare_method(declare);
@@ -242,6 +243,7 @@ void declare_replay(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, true);
+    declare_layers(declare);
     declare_skip(declare);
     declare_billboards(declare);
     declare_method(declare);
@@ -269,6 +271,7 @@ void declare_render(Declarer declare) {
     declare_camera(declare);
     declare_source(declare);
     declare_guard_band(declare, false);
+    declare_layers(declare);
     declare_skip(declare);
     declare_truth(declare);
     declare_parameters(declare);

@@ -72,7 +72,7 @@ struct Options {
     std::vector<std::string> baselines;  ///< --baseline, in the order given, without repeats
     SourcePose source_pose = SourcePose::predicted;  ///< --source-pose
     /// --source-samples, --source-density and --guard-band; render has no guard band unless it is given.
-    SourceSettings source{1, 1.0, std::nullopt};
+    SourceSettings source{1, 1.0, std::nullopt};  // and --layers
 
     CullingSettings culling;                ///< --no-skip
     std::optional<double> reveal_margin_m;  ///< --reveal-margin, metres; as the head moves unless given

@@ -6,6 +6,7 @@
 
 #include "apps/parallel.h"
 
+#include "client_renderer/hidden_layer.h"
 #include "client_renderer/reveal_margin.h"
 
 namespace lw {
@@ -115,9 +116,10 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     layer->camera.world_from_eye = pose.world_from_head;
     layer->pose_sampled = pose.newest_sample;
     layer->scene_time_s = seconds_of(drawn_for);
-    renderer_->set_reveal_margin(reveal_margin_m(options_.reveal_margin_m, *client_predictor_, feed_, begin,
-                                                 pose.world_from_head, clock_.published(frame),
-                                                 clock_.end_of_life(frame)));
+    const double head_motion_m =
+        reveal_margin_m(options_.reveal_margin_m, *client_predictor_, feed_, begin, pose.world_from_head,
+                        clock_.published(frame), clock_.end_of_life(frame));
+    renderer_->set_reveal_margin(head_motion_m);
     renderer_->set_viewer_moves(options_.culling.min_pixels > 0.0 &&
                                 viewer_moves(*client_predictor_, feed_, begin, clock_.end_of_life(frame)));
     const Stopwatch drawing;
@@ -126,16 +128,26 @@ void ReplayRun::draw_client_frame(std::uint64_t frame) {
     client_draws_.push_back(renderer_->counters());
     renderer_->use_billboards(false);
     renderer_->mover_placements(layer->scene_time_s, layer->movers);
+    std::vector<std::shared_ptr<Layer>> layers{std::move(layer)};
+    if (options_.source.layers == 2) {
+        auto hidden = std::make_shared<Layer>();
+        draw_hidden_layer(*renderer_, *layers.front(), options_.source.samples_per_axis, head_motion_m, *hidden);
+        layers.push_back(std::move(hidden));
+    }
     costs_.app_ms.push_back(drawing.ms());
+    prepare(layers);
+    const TimePoint published = clock_.published(frame);
+    frame_ = {frame + 1, {layers.begin(), layers.end()}, {pose.newest_sample, begin, published, published}};
+    drawn_frame_ = frame;
+}
+
+void ReplayRun::prepare(std::span<const std::shared_ptr<Layer>> layers) {
     for (std::size_t i = 0; i < warpers_.size(); ++i) {
         if (!warpers_[i]) continue;
         const Stopwatch preparing;
-        warpers_[i]->prepare(*layer);
+        for (const auto& layer : layers) warpers_[i]->prepare(*layer);
         costs_.prepare_ms[i].push_back(preparing.ms());
     }
-    const TimePoint published = clock_.published(frame);
-    frame_ = {frame + 1, {std::move(layer)}, {pose.newest_sample, begin, published, published}};
-    drawn_frame_ = frame;
 }
 
 void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s) {

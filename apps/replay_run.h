@@ -5,6 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -80,6 +81,8 @@ private:
     ReplayRun(const Options& options, const ReplayTiming& timing, TraceFeed feed, const SceneStage& stage);
     Status make_methods();
     void draw_client_frame(std::uint64_t frame);
+    /// Runs every method's prepare step on layers that were just drawn.
+    void prepare(std::span<const std::shared_ptr<Layer>> layers);
     [[nodiscard]] const Camera& source_camera_of(std::uint64_t frame);
     void show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s);
     [[nodiscard]] std::optional<double> flicker_of(std::size_t method, const Image<int>& pixels_before) const;

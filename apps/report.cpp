@@ -120,6 +120,7 @@ void describe_settings(Report& report, const Options& options) {
     } else {
         set("guard_band_deg", "auto");
     }
+    set("layers", options.source.layers);
     set("app_hz", options.app_hz);
     set("display_hz", options.display_hz);
     if (options.predict) set("predict", *options.predict);

@@ -4,6 +4,7 @@
 #include <exception>
 #include <utility>
 
+#include "client_renderer/hidden_layer.h"
 #include "client_renderer/reveal_margin.h"
 
 namespace lw {
@@ -74,8 +75,9 @@ void ClientLoop::draw_and_publish() {
     layer->pose_sampled = head.newest_sample;
     layer->scene_time_s = seconds_of(target);
     const TimePoint shown_from = sampled + latency_;
-    renderer_.set_reveal_margin(reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled,
-                                                head.world_from_head, shown_from, shown_from + period_));
+    const double head_motion_m = reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled,
+                                                 head.world_from_head, shown_from, shown_from + period_);
+    renderer_.set_reveal_margin(head_motion_m);
 
     if (settings_.min_pixels > 0.0) {
         renderer_.set_viewer_moves(viewer_moves(*predictor_, head_, sampled, shown_from + period_));
@@ -93,12 +95,20 @@ void ClientLoop::draw_and_publish() {
     }
     record.counters = renderer_.counters();
     renderer_.mover_placements(layer->scene_time_s, layer->movers);
+    std::shared_ptr<Layer> hidden;
+    if (settings_.source.layers == 2) {
+        hidden = layers_.acquire();
+        draw_hidden_layer(renderer_, *layer, settings_.source.samples_per_axis, head_motion_m, *hidden);
+    }
     record.times.render_end = clock_.now();
-    if (prepare_) prepare_(*layer);
 
     auto frame = std::make_shared<RenderedFrame>();
     frame->index = record.index;
-    frame->layers.push_back(std::move(layer));
+    for (std::shared_ptr<Layer>* drawn : {&layer, &hidden}) {
+        if (*drawn == nullptr) continue;
+        if (prepare_) prepare_(**drawn);
+        frame->layers.push_back(std::move(*drawn));
+    }
     record.times.published = clock_.now();
     frame->times = record.times;
     exchange_.publish(std::move(frame));

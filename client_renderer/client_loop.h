@@ -26,7 +26,8 @@ struct ClientSettings {
     double max_hz = 0.0;                          ///< 0: as fast as it can
     bool predict_source_pose =
         true;               ///< draw for the middle of the frame's life on the display (--source-pose predicted)
-    bool textures = false;  ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory
+    bool textures = false;  ///< hand frames over as textures (a GPU with shared contexts), else as CPU memory: for one
+                            ///< layer only
 };
 
 /// What runs before a layer is published: the warp method's prepare step, handed in by apps.

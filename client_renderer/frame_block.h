@@ -7,7 +7,7 @@
 
 namespace lw {
 
-/// Composed in double, rounded once. Pure, any thread.
+/// Composed in double, rounded once. Its `part` is for the caller to fill. Pure, any thread.
 [[nodiscard]] shader::FrameBlock frame_block(const Camera& camera, const scene::Sun& sun);
 
 }  // namespace lw

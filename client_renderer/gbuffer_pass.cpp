@@ -54,7 +54,7 @@ GBufferPass::GBufferPass(const GpuScene& gpu_scene)
         make_vertex_array(gpu_scene.surface_vertices(), gpu_scene.texture_vertices(), instances_, gpu_scene.indices());
 }
 
-std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targets) {
+std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targets, GpuScene::Into into) {
     if (!list.commands().empty()) {
         replace(instances_, list.instances());
         replace(commands_, list.commands());
@@ -66,7 +66,7 @@ std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targe
     glClearNamedFramebufferuiv(targets.gbuffer.id(), GL_COLOR, 3, no_object);
     glClearNamedFramebufferfv(targets.gbuffer.id(), GL_DEPTH, 0, &background);
     for (const DrawRange& range : list.ranges()) {
-        gpu_scene_.bind(gpu_scene_.batches()[static_cast<std::size_t>(range.batch)]);
+        gpu_scene_.bind(gpu_scene_.batches()[static_cast<std::size_t>(range.batch)], into);
         glFrontFace(range.mirrored ? GL_CW : GL_CCW);
         glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, command_offset(range.first_command),
                                     static_cast<GLsizei>(range.command_count), 0);

@@ -14,9 +14,11 @@ public:
     /// `gpu_scene` outlives the pass.
     explicit GBufferPass(const GpuScene& gpu_scene);
 
-    /// Clears the G-buffer and draws. The frame block is bound. Leaves depth test and face culling off.
+    /// Clears the G-buffer and draws. The frame block is bound; for a part of the scene that lies behind something, the
+    /// limits' texture too. Leaves depth test and face culling off.
     /// @return the number of draw calls
-    std::uint64_t draw(const DrawList& list, const RenderTargets& targets);
+    std::uint64_t draw(const DrawList& list, const RenderTargets& targets,
+                       GpuScene::Into into = GpuScene::Into::gbuffer);
 
     /// Draws three indices of every batch, so that the driver compiles every variant now (llvmpipe does at the first
     /// draw, 20-300 ms each).

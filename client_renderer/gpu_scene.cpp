@@ -49,7 +49,7 @@ Result<std::unique_ptr<GpuScene>> GpuScene::create(const scene::Scene& scene) {
     gpu_scene->upload_meshes();
     gpu_scene->collect_batches();
     gpu_scene->upload_materials();
-    const Status compiled = gpu_scene->compile_programs();
+    const Status compiled = gpu_scene->compile("", gpu_scene->programs_, &SurfaceBatch::program);
     if (!compiled.ok()) return compiled.error();
     return gpu_scene;
 }
@@ -120,33 +120,27 @@ void GpuScene::upload_materials() {
     }
 }
 
-Status GpuScene::compile_programs() {
+Status GpuScene::compile(const std::string& variant, Programs& programs,
+                         const gl::Program* SurfaceBatch::*program_of_batch) {
     for (SurfaceBatch& batch : batches_) {
-        gl::Program& program = programs_[batch.features];
+        gl::Program& program = programs[batch.features];
         if (!program) {
-            auto made = gl::Program::create({"client/gbuffer.vert", "client/gbuffer.frag"}, defines_of(batch.features));
+            auto made = gl::Program::create({"client/gbuffer.vert", "client/gbuffer.frag"},
+                                            defines_of(batch.features) + variant);
             if (!made.ok()) return made.error();
             program = std::move(*made);
         }
-        batch.program = &program;
+        batch.*program_of_batch = &program;
     }
     return Done{};
 }
 
 Status GpuScene::add_billboard_programs(AtlasFormat format) {
-    for (SurfaceBatch& batch : batches_) {
-        gl::Program& program = billboard_programs_[batch.features];
-        if (!program) {
-            std::string defines = defines_of(batch.features);
-            defines.append("#define BILLBOARD\n").append(lw::defines_of(format));
-            auto made = gl::Program::create({"client/gbuffer.vert", "client/gbuffer.frag"}, defines);
-            if (!made.ok()) return made.error();
-            program = std::move(*made);
-        }
-        batch.billboard_program = &program;
-    }
-    return Done{};
+    return compile(std::string{"#define BILLBOARD\n"}.append(lw::defines_of(format)), billboard_programs_,
+                   &SurfaceBatch::billboard_program);
 }
+
+Status GpuScene::add_part_programs() { return compile("#define PART\n", part_programs_, &SurfaceBatch::part_program); }
 
 const scene::Material& GpuScene::material_of(const SurfaceBatch& batch) const {
     return batch.material == scene::kNone ? default_material_
@@ -156,7 +150,8 @@ const scene::Material& GpuScene::material_of(const SurfaceBatch& batch) const {
 void GpuScene::bind(const SurfaceBatch& batch, Into into) const {
     const scene::Material& material = material_of(batch);
     const SurfaceFeatures& features = batch.features;
-    (into == Into::gbuffer ? batch.program : batch.billboard_program)->use();
+    const gl::Program* const programs[] = {batch.program, batch.billboard_program, batch.part_program};
+    programs[static_cast<std::size_t>(into)]->use();
     glBindBufferRange(GL_UNIFORM_BUFFER, shader::kBindingMaterial, materials_.id(), batch.block_offset,
                       sizeof(shader::MaterialBlock));
     if (features.base_colour_texture) textures_.bind(material.base_colour_texture, true, shader::kUnitBaseColour);

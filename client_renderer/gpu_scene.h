@@ -24,6 +24,7 @@ struct SurfaceBatch {
     std::ptrdiff_t block_offset = 0;  ///< of its MaterialBlock in the material buffer
     const gl::Program* program = nullptr;
     const gl::Program* billboard_program = nullptr;  ///< draws into a billboard's slot; null without billboards
+    const gl::Program* part_program = nullptr;       ///< leaves out what is not in a part of the scene; null without
 };
 
 /// Immutable once made. Belongs to one GL context and its thread.
@@ -36,8 +37,11 @@ public:
     /// Compiles the variants that draw into atlases of this format. Once, before billboards are painted.
     [[nodiscard]] Status add_billboard_programs(AtlasFormat format);
 
-    /// What a batch is drawn into.
-    enum class Into : std::uint8_t { gbuffer, billboards };
+    /// Compiles the variants that draw a part of the scene (ScenePart), if they are not there yet.
+    [[nodiscard]] Status add_part_programs();
+
+    /// What a batch is drawn into; a part's picture is a G-buffer without what is not in the part.
+    enum class Into : std::uint8_t { gbuffer, billboards, part };
 
     [[nodiscard]] const std::vector<SurfaceBatch>& batches() const { return batches_; }
     /// Mesh parts by batch, as DrawList takes them.
@@ -61,7 +65,10 @@ private:
     void cluster(const scene::Mesh& mesh, std::span<std::uint32_t> indices);
     void collect_batches();
     void upload_materials();
-    [[nodiscard]] Status compile_programs();
+    using Programs = std::map<SurfaceFeatures, gl::Program>;
+    /// Compiles a variant of every batch's program; `variant` is more preprocessor lines.
+    [[nodiscard]] Status compile(const std::string& variant, Programs& programs,
+                                 const gl::Program* SurfaceBatch::*program_of_batch);
     [[nodiscard]] const scene::Material& material_of(const SurfaceBatch& batch) const;
 
     const scene::Scene& scene_;
@@ -75,8 +82,9 @@ private:
     std::vector<std::uint32_t> first_index_;   ///< by mesh
     std::unique_ptr<Clusters> clusters_ = std::make_unique<Clusters>();
     std::vector<std::vector<ClusterRange>> clusters_of_primitives_;  ///< by mesh and primitive
-    std::map<SurfaceFeatures, gl::Program> programs_;
-    std::map<SurfaceFeatures, gl::Program> billboard_programs_;
+    Programs programs_;
+    Programs billboard_programs_;
+    Programs part_programs_;
     std::vector<SurfaceBatch> batches_;
     std::vector<std::vector<MeshPart>> parts_;
 };

@@ -22,8 +22,8 @@ public:
     [[nodiscard]] std::size_t free_count() const;
 
 private:
-    // The exchange holds up to three frames, and one more is being drawn.
-    static constexpr std::size_t kMostFree = 4;
+    // The exchange holds up to three frames, and one more is being drawn; each may have two layers.
+    static constexpr std::size_t kMostFree = 8;
 
     struct Shelf {
         std::mutex mutex;

@@ -50,7 +50,7 @@ void LightingPass::cull_lights(const RenderTargets& targets, const LightTiles& l
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights) {
+void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights, bool sky) {
     bind_texture(shader::kUnitGAlbedo, targets.albedo_roughness);
     bind_texture(shader::kUnitGNormal, targets.normal);
     bind_texture(shader::kUnitGEmissive, targets.emissive_metallic);
@@ -64,9 +64,11 @@ void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights) 
     glDepthFunc(GL_LESS);
     surfaces_.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    glDepthFunc(GL_EQUAL);
-    sky_.use();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    if (sky) {
+        glDepthFunc(GL_EQUAL);
+        sky_.use();
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
 
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_TRUE);

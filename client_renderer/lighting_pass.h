@@ -15,7 +15,8 @@ public:
     [[nodiscard]] static Result<LightingPass> create(bool point_lights);
 
     /// Lights `targets` into its colour. The frame block is bound; `lights` was built for the same camera.
-    void draw(const RenderTargets& targets, const LightTiles& lights);
+    /// Without `sky` pixels that show no surface keep what they hold.
+    void draw(const RenderTargets& targets, const LightTiles& lights, bool sky = true);
 
 private:
     LightingPass() = default;

@@ -135,9 +135,24 @@ public:
         check_samples(samples_per_axis);
         if (samples_per_axis == 1) return draw(camera, scene_time_s, pixels);
         begin_picture(camera, scene_time_s, samples_per_axis);
-        if (!resolved_ || resolved_->colour.size_px() != camera.size_px) resolved_ = make_layer(camera.size_px);
-        resolve(camera, scene_time_s, samples_per_axis, *resolved_);
+        resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
         download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
+    }
+
+    std::uint64_t draw_part(const Camera& camera, double scene_time_s, int samples_per_axis, const ScenePart& part,
+                            CpuPixels& pixels) override {
+        begin_part(camera, samples_per_axis, part);
+        tile_first_px_ = {0, 0};
+        if (samples_per_axis == 1) {
+            const RenderTargets& targets = render(camera, scene_time_s);
+            download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
+        } else {
+            resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
+            download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
+        }
+        part_ = {};
+        into_ = GpuScene::Into::gbuffer;
+        return empty_what_is_not_in(part, pixels);
     }
 
     TexturePixels draw_to_textures(const Camera& camera, double scene_time_s, int samples_per_axis) override {
@@ -193,6 +208,26 @@ public:
 private:
     static constexpr int kWarmUpPx = 64;
 
+    void begin_part(const Camera& camera, int samples_per_axis, const ScenePart& part) {
+        check_samples(samples_per_axis);
+        const Status programs = gpu_scene_->add_part_programs();
+        LW_CHECK(programs.ok(), programs.error().message());
+        counters_ = {};
+        replace_by_billboards_ = false;
+        part_ = part;
+        samples_per_axis_ = samples_per_axis;
+        into_ = GpuScene::Into::part;
+        if (part.behind == nullptr) return;
+        LW_CHECK(part.behind->size_px() == camera.size_px, "limits of another size than the picture");
+        if (!behind_ || behind_->size_px() != camera.size_px) behind_.emplace(camera.size_px, GL_R32F);
+        behind_->upload(GL_RED, GL_FLOAT, part.behind->pixels().data());
+    }
+
+    const LayerTextures& resolved_of(glm::ivec2 size_px) {
+        if (!resolved_ || resolved_->colour.size_px() != size_px) resolved_ = make_layer(size_px);
+        return *resolved_;
+    }
+
     // Before the tiles of a picture are drawn: billboards are chosen and updated once for all of them.
     void begin_picture(const Camera& camera, double scene_time_s, int samples_per_axis) {
         counters_ = {};
@@ -221,7 +256,11 @@ private:
     }
 
     void bind_frame(const Camera& camera) {
-        const shader::FrameBlock block = frame_block(camera, scene_.sun);
+        shader::FrameBlock block = frame_block(camera, scene_.sun);
+        block.part = {static_cast<float>(part_.nearest_m), static_cast<float>(part_.farthest_m),
+                      part_.behind != nullptr ? static_cast<float>(samples_per_axis_) : 0.0F, 0.0F};
+        block.tiles.y = tile_first_px_.x;
+        block.tiles.z = tile_first_px_.y;
         glNamedBufferSubData(frame_block_.id(), 0, sizeof block, &block);
         glBindBufferBase(GL_UNIFORM_BUFFER, shader::kBindingFrame, frame_block_.id());
     }
@@ -236,6 +275,7 @@ private:
     void resolve(const Camera& camera, double scene_time_s, int samples_per_axis, const LayerTextures& layer) {
         const glm::ivec2 tile_px = tile_size_px(camera.size_px, samples_per_axis);
         for_each_tile(camera, samples_per_axis, tile_px, [&](const Camera& part, glm::ivec2 first_px) {
+            tile_first_px_ = first_px;
             resolve_.draw(render(part, scene_time_s), samples_per_axis, first_px, layer);
         });
     }
@@ -245,7 +285,8 @@ private:
         const RenderTargets& targets = targets_of(camera.size_px);
         decide_what_is_drawn(camera, scene_time_s);
         bind_frame(camera);
-        timed(counters_.meshes_ms, [&] { counters_.draw_calls += gbuffer_.draw(*draw_list_, targets); });
+        if (behind_) glBindTextureUnit(static_cast<GLuint>(shader::kUnitBehind), behind_->id());
+        timed(counters_.meshes_ms, [&] { counters_.draw_calls += gbuffer_.draw(*draw_list_, targets, into_); });
         if (replace_by_billboards_) {
             timed(counters_.billboards_ms, [&] {
                 targets.gbuffer.bind();
@@ -254,7 +295,7 @@ private:
         }
         timed(counters_.light_ms, [&] {
             lights_.build(scene_.point_lights, camera);
-            lighting_.draw(targets, lights_);
+            lighting_.draw(targets, lights_, part_.sky);
         });
         return targets;
     }
@@ -264,7 +305,7 @@ private:
         state_.set_time(scene_time_s);
         placed_->move(state_);
         culling_->move();
-        const std::span<const std::uint32_t> visible = drawn_as_meshes(culling_->visible(camera));
+        const std::span<const std::uint32_t> visible = in_part(drawn_as_meshes(culling_->visible(camera)), camera);
         ClusterUse clusters;
         gpu_scene_->clusters().counters() = {};
         if (settings_.culling.skip && settings_.culling.clusters) {
@@ -285,6 +326,18 @@ private:
             if (replaced[instance] == 0) meshes_.push_back(i);
         }
         return meshes_;
+    }
+
+    // Without the instances that have nothing in the part being drawn.
+    std::span<const std::uint32_t> in_part(std::span<const std::uint32_t> visible, const Camera& camera) {
+        if (into_ != GpuScene::Into::part) return visible;
+        in_part_.clear();
+        for (const std::uint32_t i : visible) {
+            const PlacedInstance& placed = (*placed_)[i];
+            const bool is_mover = placed.instance->mover != 0;
+            if (in_range(part_, placed.bounds_world, is_mover, camera.world_from_eye.position_m)) in_part_.push_back(i);
+        }
+        return in_part_;
     }
 
     void count_what_was_skipped() {
@@ -337,6 +390,12 @@ private:
     gl::Buffer frame_block_;
     std::optional<BillboardPainter> painter_;
     std::unique_ptr<BillboardField> field_;
+    ScenePart part_;  ///< of the picture being drawn; all of the scene unless into_ says so
+    GpuScene::Into into_ = GpuScene::Into::gbuffer;
+    int samples_per_axis_ = 1;           ///< of the part being drawn
+    glm::ivec2 tile_first_px_{0};        ///< of its tile being drawn
+    std::optional<gl::Texture> behind_;  ///< limits of the last part that had some
+    std::vector<std::uint32_t> in_part_;
     bool use_billboards_ = false;
     bool replace_by_billboards_ = false;  ///< in the picture being drawn
     std::vector<std::unique_ptr<RenderTargets>> targets_;

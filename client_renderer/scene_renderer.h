@@ -6,6 +6,7 @@
 
 #include "billboard_lod/billboard_field.h"
 #include "client_renderer/culling_settings.h"
+#include "client_renderer/scene_part.h"
 #include "core/camera.h"
 #include "core/clock.h"
 #include "core/image.h"
@@ -62,6 +63,11 @@ public:
     /// that surfaces are antialiased inside and keep hard edges. 1, 2 or 4; 1 equals draw() bit for bit, at its cost.
     /// Drawn in tiles where it is large.
     virtual void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) = 0;
+
+    /// draw_resolved() of a part of the scene. Objects that would be billboards are drawn as meshes.
+    /// @return the number of pixels that hold nothing
+    virtual std::uint64_t draw_part(const Camera& camera, double scene_time_s, int samples_per_axis,
+                                    const ScenePart& part, CpuPixels& pixels) = 0;
 
     /// draw_resolved() into textures of the current context, with a fence, for a server whose context shares with this
     /// one.

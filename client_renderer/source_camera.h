@@ -12,6 +12,7 @@ struct SourceSettings {
     int samples_per_axis = 1;                    ///< squared samples per source pixel, resolved per surface: 1, 2 or 4
     double density = 1.0;                        ///< source pixels per target pixel and axis at the centre: at least 1
     std::optional<double> guard_band_rad = 0.0;  ///< per side, >= 0; nothing: sized from the head's rotation
+    int layers = 1;                              ///< 2: with a hidden layer (client_renderer/hidden_layer.h)
 };
 
 /// `target` with a guard band, and `density` times its pixels in each direction at that field of view (rounded to

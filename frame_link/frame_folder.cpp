@@ -1,5 +1,6 @@
 #include "frame_link/frame_folder.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <set>
@@ -54,6 +55,7 @@ void convert_from_distance(DepthImage& depth, double near_m) {
 void warn_of_bad_depths(const Layer& layer, std::vector<std::string>& warnings) {
     std::size_t bad = 0;
     for (const float depth : layer.cpu().depth.pixels()) bad += depth >= 0.0F && depth <= 1.0F ? 0 : 1;
+    bad -= layer.empty_pixels;
     if (bad == 0) return;
     warnings.push_back(
         fmt::format("layer {}: {} depth values are no depth (not finite, behind the eye or before the "
@@ -186,6 +188,8 @@ Result<LoadedFrame> load_frame_folder(const fs::path& folder) {
         layer->scene_time_s = from.time_s;
         layer->pixels = std::move(*pixels);
         layer->movers = std::move(from.movers);
+        layer->empty_pixels =
+            static_cast<std::uint64_t>(std::ranges::count(layer->cpu().depth.pixels(), kNoSurfaceDepth));
         warn_of_bad_depths(*layer, loaded.warnings);
         warn_of_unknown_ids(*layer, loaded.warnings);
         frame->layers.push_back(std::move(layer));

@@ -20,6 +20,10 @@
 
 namespace lw {
 
+/// Depth of a pixel that shows nothing, not even the sky: layers that hold a part of the scene have such pixels. It is
+/// no depth, so every warp method passes over it.
+inline constexpr float kNoSurfaceDepth = -1.0F;
+
 /// Pixels in CPU memory, all of the layer's size. How frames travel on a software GL, and from renderers without GL.
 struct CpuPixels {
     ColourImage colour;       ///< sRGB
@@ -53,6 +57,7 @@ struct Layer {
     TimePoint pose_sampled;     ///< stamp of the newest head sample that `camera` was predicted from
     double scene_time_s = 0.0;  ///< time the movers were drawn at
     FramePixels pixels;
+    std::uint64_t empty_pixels = 0;       ///< how many have kNoSurfaceDepth
     std::vector<ObjectTransform> movers;  ///< every mover's placement as drawn, by ascending id
 
     /// Programmer errors when the pixels live elsewhere.

@@ -37,6 +37,7 @@ const int kUnitBaseColour = 0;
 const int kUnitMetallicRoughness = 1;
 const int kUnitNormal = 2;
 const int kUnitEmissive = 3;
+const int kUnitBehind = 4;  // of a part of the scene: depths at and beyond which nothing is drawn
 
 // Texture units of the full-screen passes.
 const int kUnitGAlbedo = 0;    // sqrt(albedo), roughness
@@ -66,7 +67,8 @@ LW_BLOCK(FrameBlock, kBindingFrame) {
     vec4 sun_direction;   // relative, towards the sun, unit
     vec4 sun_irradiance;  // linear
     vec4 near_m;          // x
-    ivec4 tiles;          // x: light tiles per row
+    ivec4 tiles;          // x: light tiles per row; y, z: the layer's pixel at which the picture being drawn begins
+    vec4 part;            // x, y: range of static surfaces drawn, metres along the ray; z: samples per limit, or 0
 }
 LW_BLOCK_END(frame);
 

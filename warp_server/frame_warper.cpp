@@ -71,7 +71,9 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
             continue;
         }
         method_->warp(*layer, usable, first_camera != nullptr ? layer_frame_ : display_frame_);
-        counters_ += method_->counters();
+        WarpCounters of_layer = method_->counters();
+        of_layer.bad_depth -= std::min(of_layer.bad_depth, layer->empty_pixels);  // they hold nothing, which is not bad
+        counters_ += of_layer;
         if (first_camera != nullptr) merge_nearest(layer_frame_, display_frame_);
         if (first_camera == nullptr) first_camera = &layer->camera;
     }

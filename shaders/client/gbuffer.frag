@@ -24,6 +24,10 @@ layout(binding = kUnitNormal) uniform sampler2D u_normal;
 layout(binding = kUnitEmissive) uniform sampler2D u_emissive;
 #endif
 
+#ifdef PART
+layout(binding = kUnitBehind) uniform sampler2D u_behind;
+#endif
+
 #ifdef PACKED
 #include "billboards/packed_surface.glsl"
 layout(location = 0) out uvec2 o_packed;
@@ -43,7 +47,24 @@ vec2 uv_of(int unit) {
 }
 #endif
 
+#ifdef PART
+bool is_left_out() {
+    vec3 ray = frame.ray_origin.xyz + gl_FragCoord.x * frame.ray_per_px_x.xyz + gl_FragCoord.y * frame.ray_per_px_y.xyz;
+    float distance_m = length(ray) * frame.near_m.x / gl_FragCoord.z;
+    bool in_range = distance_m >= frame.part.x && distance_m < frame.part.y;
+    if (v_object_id == 0u && !in_range) return true;
+    int samples = int(frame.part.z);
+    if (samples == 0) return false;
+    // The last tiles of a picture reach beyond it.
+    ivec2 pixel = min(frame.tiles.yz + ivec2(gl_FragCoord.xy) / samples, textureSize(u_behind, 0) - 1);
+    return gl_FragCoord.z >= texelFetch(u_behind, pixel, 0).r;
+}
+#endif
+
 void main() {
+#ifdef PART
+    if (is_left_out()) discard;
+#endif
     vec4 base_colour = material.base_colour;
 #ifdef VERTEX_COLOUR
     base_colour *= v_colour;

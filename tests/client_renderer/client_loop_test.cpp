@@ -26,6 +26,12 @@ public:
         samples.push_back(samples_per_axis);
         draw(camera, scene_time_s, pixels);
     }
+    std::uint64_t draw_part(const Camera& camera, double scene_time_s, int samples_per_axis, const ScenePart& part,
+                            CpuPixels& pixels) override {
+        parts.push_back(part);
+        draw_resolved(camera, scene_time_s, samples_per_axis, pixels);
+        return 0;
+    }
     TexturePixels draw_to_textures(const Camera& /*camera*/, double /*scene_time_s*/,
                                    int /*samples_per_axis*/) override {
         return {};
@@ -40,6 +46,7 @@ public:
     std::vector<Camera> cameras;
     std::vector<double> times_s;
     std::vector<int> samples;
+    std::vector<ScenePart> parts;
     std::function<void()> on_draw;
 
 private:

@@ -99,5 +99,27 @@ TEST(FrameWarper, ALayerAtTheAddressOfAnOldOneIsAnotherLayer) {
     }
 }
 
+TEST(FrameWarper, PixelsThatHoldNothingAreHolesAndNotBad) {
+    const Camera camera = street_camera({8, 4});
+    Layer layer = indexed_layer(camera, 0.05F);
+    for (int y = 0; y < 4; ++y) layer.cpu().depth.at(5, y) = kNoSurfaceDepth;
+    layer.cpu().depth.at(2, 2) = 7.0F;
+    layer.empty_pixels = 4;
+    const SharedLayer front = shared(std::move(layer));
+    for (const char* method : {"splat", "surface", "reference"}) {
+        auto warper = FrameWarper::create(method, "none");
+        const DisplayFrame& shown = warper->warp(frame_with({front}), {camera, {}});
+        EXPECT_NE(shown.coverage.at(5, 1), Coverage::reached) << method;
+        EXPECT_EQ(shown.coverage.at(4, 1), Coverage::reached) << method;
+        EXPECT_EQ(warper->counters().bad_depth, 1U) << method;
+        // What lies behind shows there, and nowhere else.
+        const SharedLayer back = shared(indexed_layer(camera, 0.01F));
+        const DisplayFrame& both = warper->warp(frame_with({front, back}), {camera, {}});
+        EXPECT_EQ(both.coverage.at(5, 1), Coverage::reached) << method;
+        EXPECT_NEAR(both.depth.at(5, 1), 0.01F, 1e-6F) << method;
+        EXPECT_NEAR(both.depth.at(4, 1), 0.05F, 1e-6F) << method;
+    }
+}
+
 }  // namespace
 }  // namespace lw::test

@@ -15,6 +15,7 @@
 #include "core/clock.h"
 #include "core/image.h"
 #include "core/object_transform.h"
+#include "core/stereo_rig.h"
 #include "gl/fence.h"
 #include "gl/texture.h"
 
@@ -53,9 +54,10 @@ struct PreparedLayer {
 /// One image with everything needed to warp it. Immutable once published.
 struct Layer {
     std::string name = "main";
-    Camera camera;              ///< the source camera; its size is the size of the pixels
-    TimePoint pose_sampled;     ///< stamp of the newest head sample that `camera` was predicted from
-    double scene_time_s = 0.0;  ///< time the movers were drawn at
+    std::optional<Eye> for_eye;  ///< the one eye that looks at it; nothing: whoever looks
+    Camera camera;               ///< the source camera; its size is the size of the pixels
+    TimePoint pose_sampled;      ///< stamp of the newest head sample that `camera` was predicted from
+    double scene_time_s = 0.0;   ///< time the movers were drawn at
     FramePixels pixels;
     std::uint64_t empty_pixels = 0;       ///< how many have kNoSurfaceDepth
     std::vector<ObjectTransform> movers;  ///< every mover's placement as drawn, by ascending id

@@ -66,7 +66,9 @@ Trace Trace::placed_at(const Pose& start, double skip_s) const {
         const double time_s = pose.time_s - begin_s;
         if (time_s > 0.0) poses.push_back({time_s, placed(pose.world_from_head)});
     }
-    return Trace{name_, std::move(poses), warnings_};
+    Trace trace{name_, std::move(poses), warnings_};
+    trace.eye_fovs_ = eye_fovs_;
+    return trace;
 }
 
 }  // namespace lw

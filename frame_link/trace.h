@@ -2,12 +2,15 @@
 /// Head traces: recorded or scripted poses over time, in the project's own CSV or in the formats of the public
 /// recordings (docs/formats.md lists them with their axes and units).
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "core/camera.h"
 #include "core/pose.h"
 #include "core/result.h"
 #include "frame_link/feeds.h"
@@ -31,6 +34,10 @@ public:
     /// What the importer mended or passed over, one line each.
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
+    /// What each eye of the recorded headset sees, left and right; nothing where the recording does not say.
+    [[nodiscard]] const std::optional<std::array<FovTangents, 2>>& eye_fovs() const { return eye_fovs_; }
+    void set_eye_fovs(const std::array<FovTangents, 2>& fovs) { eye_fovs_ = fovs; }
+
     /// Interpolated on the sphere; the first and last pose hold outside. `time_s` counts from the first sample, whose
     /// own stamp may be anything. O(log n), no allocation.
     [[nodiscard]] Pose at(double time_s) const;
@@ -45,6 +52,7 @@ private:
     std::string name_;
     std::vector<TimedPose> poses_;
     std::vector<std::string> warnings_;
+    std::optional<std::array<FovTangents, 2>> eye_fovs_;
 };
 
 /// Built-in names: still, look-around, walk, shake, dive. One minute each, deterministic, from (0, 1.6, 0) along -Z.

@@ -1,4 +1,5 @@
 #include <array>
+#include <cmath>
 
 #include "core/image_io.h"
 #include "frame_link/eyenavgs_scene.h"
@@ -12,6 +13,7 @@ struct EyeRow {
     int view = 0;  ///< 0 left, 1 right
     double time_ms = 0.0;
     Pose scene_from_eye;  ///< in scene units
+    std::optional<FovTangents> fov;
 };
 
 // The right eye of a frame is logged 3-5 ms after the left one, in a hiccup up to 36 ms. Both rows of a frame carry the
@@ -29,7 +31,28 @@ std::optional<std::vector<std::size_t>> eye_columns(const CsvReader& csv) {
                         "QuaternionZ", "QuaternionW"});
 }
 
-std::optional<EyeRow> parse_row(const CsvReader& csv, const std::vector<std::size_t>& columns) {
+std::optional<std::vector<std::size_t>> fov_columns(const CsvReader& csv) {
+    return csv.columns({"FOV1", "FOV2", "FOV3", "FOV4"});
+}
+
+// Signed angles to the left, right, bottom and top edge, radians. (The data set's own description calls the third one
+// top; by its sign, and by headsets' larger field below, it is the bottom.)
+std::optional<FovTangents> parse_fov(const CsvReader& csv, const std::optional<std::vector<std::size_t>>& columns) {
+    if (!columns) return std::nullopt;
+    constexpr double kWidest_rad = 1.48;
+    std::array<double, 4> tangents{};
+    for (std::size_t i = 0; i < tangents.size(); ++i) {
+        const auto angle_rad = csv.number((*columns)[i]);
+        if (!angle_rad || !(std::abs(*angle_rad) <= kWidest_rad)) return std::nullopt;
+        tangents[i] = std::tan(*angle_rad);
+    }
+    const FovTangents fov{tangents[0], tangents[1], tangents[2], tangents[3]};
+    if (!(fov.left < fov.right && fov.down < fov.up)) return std::nullopt;
+    return fov;
+}
+
+std::optional<EyeRow> parse_row(const CsvReader& csv, const std::vector<std::size_t>& columns,
+                                const std::optional<std::vector<std::size_t>>& fovs) {
     std::array<double, 9> v{};
     for (std::size_t i = 0; i < v.size(); ++i) {
         const auto number = csv.number(columns[i]);
@@ -37,7 +60,8 @@ std::optional<EyeRow> parse_row(const CsvReader& csv, const std::vector<std::siz
         v[i] = *number;
     }
     if (v[0] != 0.0 && v[0] != 1.0) return std::nullopt;
-    return EyeRow{static_cast<int>(v[0]), v[1], Pose{{v[2], v[3], v[4]}, {v[8], v[5], v[6], v[7]}}};
+    return EyeRow{static_cast<int>(v[0]), v[1], Pose{{v[2], v[3], v[4]}, {v[8], v[5], v[6], v[7]}},
+                  parse_fov(csv, fovs)};
 }
 
 // The head is in the middle of the eyes.
@@ -62,6 +86,7 @@ public:
             has_left_ = true;
         } else if (has_left_ && are_of_one_frame(left_, row)) {
             has_left_ = false;
+            if (!fovs_ && left_.fov && row.fov) fovs_ = {*left_.fov, *row.fov};
             rows_.add(left_.time_ms / 1e3, placed_upright(scene_, scene_from_head(left_, row)));
         } else {
             end();
@@ -74,6 +99,9 @@ public:
         has_left_ = false;
     }
 
+    /// Of the first pair that says; a headset's does not change.
+    [[nodiscard]] const std::optional<std::array<FovTangents, 2>>& fovs() const { return fovs_; }
+
 private:
     static constexpr std::string_view kAlone = "one eye without the other";
 
@@ -81,6 +109,7 @@ private:
     TraceRows& rows_;
     EyeRow left_;
     bool has_left_ = false;
+    std::optional<std::array<FovTangents, 2>> fovs_;
 };
 
 EyenavgsScene scene_of(const TraceFile& file, TraceRows& rows) {
@@ -109,15 +138,18 @@ Result<Trace> read_eyenavgs_trace(const TraceFile& file) {
     CsvReader csv{file.text};
     csv.next();
     const auto columns = *eye_columns(csv);
+    const auto fovs = fov_columns(csv);
     TraceRows rows;
     EyePairs pairs{scene_of(file, rows), rows};
     read_csv_rows(csv, rows, [&] {
-        const auto row = parse_row(csv, columns);
+        const auto row = parse_row(csv, columns, fovs);
         if (row) pairs.add(*row);
         return row.has_value();
     });
     pairs.end();
-    return rows.finish(file.name(), file.where());
+    Result<Trace> trace = rows.finish(file.name(), file.where());
+    if (trace && pairs.fovs()) trace->set_eye_fovs(*pairs.fovs());
+    return trace;
 }
 
 }  // namespace lw

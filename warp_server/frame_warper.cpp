@@ -66,6 +66,7 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
     counters_ = {};
     const Camera* first_camera = nullptr;
     for (const auto& layer : frame.layers) {
+        if (target.eye && layer->for_eye && *layer->for_eye != *target.eye) continue;
         if (!problem_of(layer->camera).empty()) {
             ++held_.bad_layer;
             continue;
@@ -91,13 +92,14 @@ bool FrameWarper::is_made_of(const RenderedFrame& frame, const WarpTarget& targe
         return !made.owner_before(layer) && !layer.owner_before(made);
     };
     return std::equal(made_.layers.begin(), made_.layers.end(), frame.layers.begin(), frame.layers.end(), same_layer) &&
-           made_.camera == target.camera &&
+           made_.camera == target.camera && made_.eye == target.eye &&
            std::equal(made_.movers.begin(), made_.movers.end(), target.movers.begin(), target.movers.end());
 }
 
 void FrameWarper::remember(const RenderedFrame& frame, const WarpTarget& target) {
     made_.layers.assign(frame.layers.begin(), frame.layers.end());
     made_.camera = target.camera;
+    made_.eye = target.eye;
     made_.movers.assign(target.movers.begin(), target.movers.end());
     made_.bad_layers = held_.bad_layer;
 }

@@ -2,7 +2,6 @@
 /// One display frame: warp method, then fill, with the time each took. What the live server, replay and the command
 /// line all call.
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -12,25 +11,12 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "warp_server/fill.h"
+#include "warp_server/picture_maker.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
 
-/// Input that could not be used, by kind; it is passed over, never fatal.
-struct HeldInput {
-    std::uint64_t bad_head_pose = 0;  ///< pictures whose head pose was none: the last good one held
-    std::uint64_t bad_placement = 0;  ///< movers whose placement at photon time was none: their last good one held
-    std::uint64_t bad_layer = 0;      ///< layers whose camera was none: left out
-
-    HeldInput& operator+=(const HeldInput& other) {
-        bad_head_pose += other.bad_head_pose;
-        bad_placement += other.bad_placement;
-        bad_layer += other.bad_layer;
-        return *this;
-    }
-};
-
-class FrameWarper {
+class FrameWarper final : public PictureMaker {
 public:
     FrameWarper(std::unique_ptr<WarpMethod> method, std::unique_ptr<Fill> fill)
         : method_{std::move(method)}, fill_{std::move(fill)} {}
@@ -39,7 +25,7 @@ public:
     [[nodiscard]] static Result<FrameWarper> create(std::string_view method, std::string_view fill);
 
     /// Runs prepare and stores the result in the layer (client's thread, before publishing).
-    void prepare(Layer& layer) const;
+    void prepare(Layer& layer) const override;
 
     /// Warps and fills. `frame` has at least one layer; size, field of view and near plane of the target are usable
     /// (programmer errors otherwise). A head pose that is none (not finite, no direction) is replaced by the last good
@@ -47,17 +33,17 @@ public:
     /// layer whose camera is none is left out, and when no layer is left the picture shown before is shown again. All
     /// of that is counted. The same layers at the same poses are the same picture: it is shown again, whatever the
     /// method. The result is valid until the next call. Server thread.
-    const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target);
+    const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target) override;
 
     /// What the last warp left out, over all layers.
-    [[nodiscard]] const WarpCounters& counters() const { return counters_; }
+    [[nodiscard]] const WarpCounters& counters() const override { return counters_; }
     /// What else of its input could not be used.
-    [[nodiscard]] const HeldInput& held() const { return held_; }
+    [[nodiscard]] const HeldInput& held() const override { return held_; }
     /// The picture of the last warp().
-    [[nodiscard]] const DisplayFrame& display_frame() const { return display_frame_; }
+    [[nodiscard]] const DisplayFrame& display_frame() const override { return display_frame_; }
     /// The same, to write over it what belongs to the display and not to the scene (photon codes, an overlay). It is
     /// not shown again after that.
-    [[nodiscard]] DisplayFrame& display_frame_to_write_over() {
+    [[nodiscard]] DisplayFrame& display_frame_to_write_over() override {
         made_.layers.clear();
         return display_frame_;
     }
@@ -74,6 +60,7 @@ private:
     struct Made {
         std::vector<std::weak_ptr<const Layer>> layers;
         Camera camera;
+        std::optional<Eye> eye;
         std::vector<ObjectTransform> movers;
         std::uint64_t bad_layers = 0;
     };

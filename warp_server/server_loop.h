@@ -13,8 +13,9 @@
 #include "frame_link/frame_exchange.h"
 #include "frame_link/prediction.h"
 #include "warp_server/display_record.h"
-#include "warp_server/frame_warper.h"
 #include "warp_server/pacer.h"
+#include "warp_server/picture_maker.h"
+#include "warp_server/presenter.h"
 #include "warp_server/steady_refreshes.h"
 
 namespace lw {
@@ -27,7 +28,7 @@ struct ServerParts {
     const HeadPoseFeed& head;
     const ObjectTransformFeed& movers;
     HeadPosePredictor& predictor;
-    FrameWarper& warper;
+    PictureMaker& warper;
     Presenter& presenter;
 };
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -38,6 +39,8 @@ struct DisplayFrame {
 struct WarpTarget {
     Camera camera;                            ///< predicted to photon time
     std::span<const ObjectTransform> movers;  ///< placements at photon time; a missing one holds its source placement
+    /// Which of two eyes looks: layers drawn for the other one are passed over. Nothing: every layer is shown.
+    std::optional<Eye> eye{};
 };
 
 /// What one warp left out. Pixels that could not be used are skipped, never fatal; the rest was found not to be seen

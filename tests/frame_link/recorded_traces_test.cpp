@@ -156,6 +156,17 @@ INSTANTIATE_TEST_SUITE_P(Data, DataRecordedTraces, testing::ValuesIn(kRecordings
     return name;
 });
 
+TEST(DataRecordedTraceFovs, AreTheHeadsetsAsymmetricOnes) {
+    const auto fovs = load("eyenavgs_rutgers/user103_train.csv").eye_fovs();
+    ASSERT_TRUE(fovs.has_value());
+    EXPECT_NEAR((*fovs)[0].left, std::tan(-0.942), 1e-12);
+    EXPECT_NEAR((*fovs)[0].right, std::tan(0.698), 1e-12);
+    EXPECT_NEAR((*fovs)[0].down, std::tan(-0.942), 1e-12);
+    EXPECT_NEAR((*fovs)[0].up, std::tan(0.733), 1e-12);
+    EXPECT_EQ((*fovs)[1].left, -(*fovs)[0].right) << "the right eye mirrors the left one";
+    EXPECT_FALSE(load("questset/sample_movement_data.csv").eye_fovs().has_value());
+}
+
 TEST(DataRecordedTraceWarnings, SayWhatIsWrongWithEach) {
     LW_NEED_SHARED_DATA();
     EXPECT_THAT(load("eyenavgs_rutgers/user117_treehill.csv").warnings(),

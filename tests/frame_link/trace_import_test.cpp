@@ -173,6 +173,29 @@ TEST_F(TraceImport, EyenavgsWithoutItsSceneIsUprightWithOneWarning) {
     }
 }
 
+TEST_F(TraceImport, EyenavgsTellsWhatEachEyeSees) {
+    const glm::dquat q{1.0, 0.0, 0.0, 0.0};
+    const std::string both = eye_row(0, -0.03, 1.0, 0.0, q, 0) + eye_row(1, 0.03, 1.0, 0.0, q, 4);
+    const Trace trace = loaded(std::string{kEyeHeader} + both, "user1_moon.csv");
+    ASSERT_TRUE(trace.eye_fovs().has_value());
+    for (const FovTangents& fov : *trace.eye_fovs()) {
+        EXPECT_EQ(fov, (FovTangents{std::tan(-0.9), std::tan(0.7), std::tan(-0.9), std::tan(0.7)}));
+    }
+    EXPECT_EQ(trace.placed_at({}, 0.0).eye_fovs(), trace.eye_fovs());
+}
+
+TEST_F(TraceImport, EyenavgsWithoutUsableFieldsOfViewHasNone) {
+    const std::string bad_rows[] = {"0,-0.9,0.7,-0.9,1.6,", "0,-0.9,0.7,x,0.7,", "0,0.9,-0.7,-0.9,0.7,"};
+    for (const std::string& bad : bad_rows) {
+        const std::string rest = "0,1,0,0,0,0,1,0,0,0,0,0,0,1,";
+        const Trace trace =
+            loaded(std::string{kEyeHeader} + bad + rest + "0\n1" + bad.substr(1) + rest + "4\n", "user1_moon.csv");
+        EXPECT_EQ(trace.poses().size(), 1U) << bad;
+        EXPECT_FALSE(trace.eye_fovs().has_value()) << bad;
+    }
+    EXPECT_FALSE(Trace("plain", {{0.0, {}}}).eye_fovs().has_value());
+}
+
 TEST_F(TraceImport, QuestsetFindsTheHeadByColumnNameWithWFirst) {
     const Trace trace = loaded(
         "Buttons,time,HeadPosX,HeadPosY,HeadPosZ,HeadOrientationW,HeadOrientationX,HeadOrientationY,"

@@ -1,0 +1,72 @@
+#include "warp_server/stereo_warper.h"
+
+#include "warp_server/band_pool.h"
+#include "warp_server/methods/scanline.h"
+
+namespace lw {
+namespace {
+
+Result<FrameWarper> scanline_warper(std::string_view fill, const Camera& display, const StereoRig& rig) {
+    auto method =
+        make_scanline_method(eye_camera(display, rig.eye(Eye::right), {}), eye_camera(display, rig.eye(Eye::left), {}));
+    if (!method) return method.error();
+    auto made_fill = make_fill(fill);
+    if (!made_fill) return made_fill.error();
+    return FrameWarper{std::move(*method), std::move(*made_fill)};
+}
+
+}  // namespace
+
+StereoWarper::StereoWarper(FrameWarper left, FrameWarper right, const StereoSettings& settings)
+    : settings_{settings}, layout_{settings.layout}, warpers_{std::move(left), std::move(right)} {
+    if (settings.parallel) pool_ = std::make_unique<BandPool>(2);
+}
+
+StereoWarper::~StereoWarper() = default;
+
+Result<std::unique_ptr<StereoWarper>> StereoWarper::create(std::string_view method, std::string_view fill,
+                                                           StereoMode mode, const Camera& display,
+                                                           const StereoSettings& settings) {
+    const bool by_rows = mode == StereoMode::scanline;
+    Result<FrameWarper> left =
+        by_rows ? scanline_warper(fill, display, settings.rig) : FrameWarper::create(method, fill);
+    if (!left) return left.error();
+    Result<FrameWarper> right = FrameWarper::create(by_rows ? "stale" : method, fill);
+    if (!right) return right.error();
+    return std::make_unique<StereoWarper>(*std::move(left), *std::move(right), settings);
+}
+
+// Both warpers are of one method with one label: what one prepared the other finds.
+void StereoWarper::prepare(Layer& layer) const { warpers_[0].prepare(layer); }
+
+const DisplayFrame& StereoWarper::warp(const RenderedFrame& frame, const WarpTarget& target) {
+    warp_eyes(frame, target);
+    pack_eyes(layout_.load(std::memory_order_relaxed), warpers_[0].display_frame().colour,
+              warpers_[1].display_frame().colour, packed_.colour);
+    return packed_;
+}
+
+void StereoWarper::warp_eyes(const RenderedFrame& frame, const WarpTarget& target) {
+    frame_ = &frame;
+    head_ = &target;
+    if (pool_) {
+        pool_->run(warp_eye_);
+    } else {
+        for (const Eye eye : kEyes) warp_eye(eye);
+    }
+    counters_ = {};
+    held_ = {};
+    for (const FrameWarper& warper : warpers_) {
+        counters_ += warper.counters();
+        held_ += warper.held();
+    }
+}
+
+void StereoWarper::warp_eye(Eye eye) {
+    WarpTarget target = *head_;
+    target.camera = eye_camera(head_->camera, settings_.rig.eye(eye), head_->camera.world_from_eye);
+    target.eye = eye;
+    warpers_[static_cast<std::size_t>(eye)].warp(*frame_, target);
+}
+
+}  // namespace lw

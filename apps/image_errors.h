@@ -15,6 +15,8 @@ struct ImageErrors {
     double hole_fraction = 0.0;       ///< unreached pixels before fill, counted by the warp
     AttributedError attribution{};    ///< of FLIP, whose sum it is; zero where causes are not known
     std::optional<double> flicker{};  ///< against the display frame before; nothing for the first
+    std::optional<double>
+        ssim_to_same{};  ///< against `fresh-same` instead of the truth; nothing where it was not asked
 };
 
 /// FLIP, SSIM and PSNR of `shown` against `truth` (equal sizes); the hole fraction stays 0, flicker empty. Pure, any

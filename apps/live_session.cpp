@@ -18,6 +18,7 @@
 #include "apps/window_presenter.h"
 #include "frame_link/sampled_head_feed.h"
 #include "frame_link/sampled_mover_feed.h"
+#include "warp_server/frame_warper.h"
 #include "warp_server/methods/registry.h"
 #include "warp_server/server_loop.h"
 #include "warp_server/virtual_display.h"

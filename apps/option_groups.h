@@ -1,7 +1,11 @@
 #pragma once
 /// Groups of options that have a file of their own, apps/options_<subject>.cpp.
 
+#include "core/result.h"
+
 namespace lw {
+
+struct Options;
 
 class Declarer;
 
@@ -16,5 +20,10 @@ void declare_layers(Declarer& declare);
 
 /// --billboards and --billboard-*: which objects the client draws as billboards, and how.
 void declare_billboards(Declarer& declare);
+
+/// --eyes, --stereo, --ipd, --eye-fov, --eye-turn, --stereo-output: the viewer's eyes, and how both get a picture.
+void declare_stereo(Declarer& declare);
+/// What of them does not go together.
+[[nodiscard]] Status check_stereo(const Options& options);
 
 }  // namespace lw

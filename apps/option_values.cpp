@@ -37,6 +37,10 @@ std::vector<std::string> split(const std::string& text, char separator) {
 
 std::string joined(const std::vector<std::string_view>& names) { return fmt::format("{}", fmt::join(names, ", ")); }
 
+std::string joined_by_bar(const std::vector<std::string_view>& names) {
+    return fmt::format("{}", fmt::join(names, "|"));
+}
+
 std::optional<double> parsed_number(std::string_view text) {
     double number = 0.0;
     const char* end = text.data() + text.size();

@@ -37,6 +37,9 @@ struct Range {
 /// "a, b, c".
 [[nodiscard]] std::string joined(const std::vector<std::string_view>& names);
 
+/// "a|b|c", as the type of an option.
+[[nodiscard]] std::string joined_by_bar(const std::vector<std::string_view>& names);
+
 /// The whole of `text` as a finite number, or nothing.
 [[nodiscard]] std::optional<double> parsed_number(std::string_view text);
 [[nodiscard]] double number_in(const std::string& option, const std::string& text, const Range& range);

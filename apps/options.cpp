@@ -182,9 +182,10 @@ void declare_trace(Declarer& declare, bool required) {
 
 void declare_baselines(Declarer& declare) {
     Options& options = declare.options();
-    declare.repeated("--baseline", "METHOD", "method beside it, also fresh or fresh-same (repeatable)",
+    declare.repeated("--baseline", "METHOD",
+                     "method beside it, also fresh or fresh-same, with two eyes also a way to make stereo (repeatable)",
                      [&options](const std::string& text) {
-                         check_method("--baseline", text, true);
+                         if (!find_stereo_mode(text)) check_method("--baseline", text, true);
                          auto& known = options.baselines;
                          if (std::find(known.begin(), known.end(), text) == known.end()) known.push_back(text);
                      });
@@ -246,6 +247,7 @@ void declare_replay(Declarer declare) {
     declare_layers(declare);
     declare_skip(declare);
     declare_billboards(declare);
+    declare_stereo(declare);
     declare_method(declare);
     declare_baselines(declare);
     declare_timing(declare);
@@ -464,10 +466,23 @@ Status check_autotune(const Options& options) {
     return Error{"no method to choose", "--error-cap, --budget-ms and --bench-data", "add --method auto"};
 }
 
+/// Of the views that the client draws.
+glm::ivec2 largest_source_px(const Options& options) {
+    glm::ivec2 largest_px{0};
+    const auto views = drawn_views_of(options, nullptr);
+    if (!views) return largest_px;
+    for (const DrawnView& view : *views) {
+        largest_px = glm::max(largest_px, SourceCameras{view.camera, options.source}.largest().size_px);
+    }
+    return largest_px;
+}
+
 /// Limits that concern two options at once.
 Status check_together(const Options& options) {
     const Status autotune = check_autotune(options);
     if (!autotune) return autotune;
+    const Status stereo = check_stereo(options);
+    if (!stereo) return stereo;
     if (!options.bench_merge.empty() && options.bench_part == "all") {
         return Error{"nothing to merge", "--merge", "add --part errors or --part times"};
     }
@@ -479,7 +494,7 @@ Status check_together(const Options& options) {
             fmt::format("--size {}x{} --truth-samples {}", options.size_px.x, options.size_px.y, options.truth_samples),
             fmt::format("keep the longer side times the samples below {}", 2 * kMaxSidePx)};
     }
-    const glm::ivec2 source_px = SourceCameras{options.camera(), options.source}.largest().size_px;
+    const glm::ivec2 source_px = largest_source_px(options);
     if ((draws || is_live(options.subcommand)) && std::max(source_px.x, source_px.y) > 2 * kMaxSidePx) {
         return Error{"too large a frame of the client", fmt::format("{}x{} pixels", source_px.x, source_px.y),
                      "choose a smaller --size, --source-density or --guard-band"};

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/stereo_options.h"
 #include "billboard_lod/billboard_settings.h"
 #include "client_renderer/culling_settings.h"
 #include "client_renderer/source_camera.h"
@@ -77,6 +78,8 @@ struct Options {
     CullingSettings culling;                ///< --no-skip
     std::optional<double> reveal_margin_m;  ///< --reveal-margin, metres; as the head moves unless given
     BillboardSettings billboards{};         ///< --billboards, --billboard-*
+
+    StereoOptions stereo;  ///< --eyes, --stereo, --ipd, --eye-*, --stereo-output
 
     std::optional<double> app_hz;          ///< --app-hz; replay draws at 10 Hz unless given, live as fast as it can
     double display_hz = 90.0;              ///< --display-hz, [1, 1000]

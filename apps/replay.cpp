@@ -23,28 +23,78 @@ std::string file_label(std::string label) {
     return label;
 }
 
-Status save_pictures(const std::filesystem::path& folder, std::uint64_t refresh, const std::vector<std::string>& labels,
-                     const RefreshPictures& pictures) {
-    const auto path = [&](const std::string& label) {
-        return folder / fmt::format("{:05}.{}.png", refresh, file_label(label));
-    };
-    Status written = write_png(path("truth"), pictures.truth);
-    for (std::size_t i = 0; written && i < labels.size(); ++i) written = write_png(path(labels[i]), pictures.shown[i]);
-    return written;
+/// The pictures of a refresh, two eyes' as the options want them.
+class ReplayPictures {
+public:
+    ReplayPictures(const Options& options, const ReplayRun& run) : options_{options}, run_{run} {}
+
+    /// One picture: the only eye's, or both eyes' side by side, one below the other, or as anaglyph.
+    [[nodiscard]] ColourImage packed(std::size_t method) const {
+        return packed_of([method](const RefreshPictures& eye) -> const ColourImage& { return eye.shown[method]; });
+    }
+    [[nodiscard]] ColourImage packed_truth() const {
+        return packed_of([](const RefreshPictures& eye) -> const ColourImage& { return eye.truth; });
+    }
+
+    [[nodiscard]] Status save(const std::filesystem::path& folder, std::uint64_t refresh) const {
+        const std::vector<std::string>& labels = run_.labels();
+        const std::string prefix = fmt::format("{:05}.", refresh);
+        if (run_.eye_count() == 1 || options_.stereo.layout != EyeLayout::files) {
+            Status written = write_png(folder / (prefix + "truth.png"), packed_truth());
+            for (std::size_t i = 0; written && i < labels.size(); ++i) {
+                written = write_png(folder / (prefix + file_label(labels[i]) + ".png"), packed(i));
+            }
+            return written;
+        }
+        Status written{Done{}};
+        for (const Eye eye : kEyes) {
+            const RefreshPictures& pictures = run_.pictures(static_cast<std::size_t>(eye));
+            const std::string end = fmt::format(".{}.png", name_of(eye));
+            if (written) written = write_png(folder / (prefix + "truth" + end), pictures.truth);
+            for (std::size_t i = 0; written && i < labels.size(); ++i) {
+                written = write_png(folder / (prefix + file_label(labels[i]) + end), pictures.shown[i]);
+            }
+        }
+        return written;
+    }
+
+private:
+    template <class PictureOf>
+    [[nodiscard]] ColourImage packed_of(PictureOf picture_of) const {
+        if (run_.eye_count() == 1) return picture_of(run_.pictures(0));
+        ColourImage both;
+        pack_eyes(options_.stereo.layout, picture_of(run_.pictures(0)), picture_of(run_.pictures(1)), both);
+        return both;
+    }
+
+    const Options& options_;
+    const ReplayRun& run_;
+};
+
+/// Two eyes' figures: their mean.
+std::vector<std::string> strip_lines(const std::string& label, const RefreshRecord& record, std::size_t method) {
+    double flip = 0.0;
+    std::string psnr;
+    for (const EyeRecord& eye : record.eyes) {
+        const ImageErrors& errors = eye.errors[method];
+        flip += errors.flip / static_cast<double>(record.eyes.size());
+        psnr += (psnr.empty() ? "" : ", ") + (errors.psnr_db ? fmt::format("{:.1f} dB", *errors.psnr_db) : "equal");
+    }
+    return {label, fmt::format("FLIP {:.3f}", flip), "PSNR " + psnr};
 }
 
 /// Baselines, the method, the truth: from worst to best, as the README shows them.
-ColourImage strip_of(const std::vector<std::string>& labels, const RefreshPictures& pictures,
-                     const RefreshRecord& record) {
+ColourImage strip_of(const ReplayRun& run, const ReplayPictures& pictures, const RefreshRecord& record) {
+    const std::size_t count = run.labels().size();
+    std::vector<ColourImage> shown;
+    for (std::size_t i = 0; i < count; ++i) shown.push_back(pictures.packed(i));
+    const ColourImage truth = pictures.packed_truth();
     std::vector<StripPicture> entries;
-    const auto add = [&](std::size_t i) {
-        const ImageErrors& errors = record.errors[i];
-        const std::string psnr = errors.psnr_db ? fmt::format("PSNR {:.1f} dB", *errors.psnr_db) : "equal";
-        entries.push_back({&pictures.shown[i], {labels[i], fmt::format("FLIP {:.3f}", errors.flip), psnr}});
-    };
-    for (std::size_t i = 1; i < labels.size(); ++i) add(i);
-    add(0);
-    entries.push_back({&pictures.truth, {"truth", "FLIP 0.000"}});
+    for (std::size_t i = 1; i <= count; ++i) {
+        const std::size_t method = i % count;
+        entries.push_back({&shown[method], strip_lines(run.labels()[method], record, method)});
+    }
+    entries.push_back({&truth, {"truth", "FLIP 0.000"}});
     return picture_strip(entries);
 }
 
@@ -52,10 +102,28 @@ std::string description_of(const Options& options, const ReplayResult& result) {
     return fmt::format(
         "Scene {}, trace {} from {} s, {} display frames of {}x{} pixels at {} Hz, client at {} Hz, fill {}, truth "
         "with "
-        "{}x{} samples per pixel, FLIP at {:.1f} pixels per degree.",
+        "{}x{} samples per pixel, FLIP at {:.1f} pixels per degree.{}",
         options.scene, options.trace, options.trace_start_s, result.refreshes.size(), options.size_px.x,
         options.size_px.y, options.display_hz, options.app_hz.value_or(0.0), options.fill, options.truth_samples,
-        options.truth_samples, result.pixels_per_degree);
+        options.truth_samples, result.pixels_per_degree,
+        options.stereo.on
+            ? fmt::format(" Two eyes, {} mm apart, {}.", options.stereo.ipd_m * 1e3, name_of(options.stereo.mode))
+            : "");
+}
+
+std::string mean_of(const std::optional<Distribution>& distribution) {
+    return distribution ? fmt::format("{:.4f}", distribution->mean) : "-";
+}
+
+void print_stereo_summary(const ReplayResult& result) {
+    std::fprintf(stderr, "%-20s %8s %12s %14s %10s\n", "both eyes", "rivalry", "vertical px", "colour excess",
+                 "SSIM same");
+    for (std::size_t i = 0; i < result.labels.size(); ++i) {
+        const StereoSummary eyes = stereo_summary_of(result, i);
+        std::fprintf(stderr, "%-20s %8s %12s %14s %10s\n", result.labels[i].c_str(),
+                     mean_of(eyes.rivalry_fraction).c_str(), mean_of(eyes.vertical_disparity_px).c_str(),
+                     mean_of(eyes.colour_excess).c_str(), mean_of(summary_of(result, i).ssim_to_same).c_str());
+    }
 }
 
 void print_summary(const ReplayResult& result) {
@@ -66,6 +134,7 @@ void print_summary(const ReplayResult& result) {
         std::fprintf(stderr, "%-20s %8.4f %9s %8.4f %8.4f\n", result.labels[i].c_str(), summary.flip->mean,
                      psnr_db.c_str(), summary.ssim->mean, summary.hole_fraction->mean);
     }
+    if (result.refreshes.front().eyes.size() == 2) print_stereo_summary(result);
 }
 
 Result<ReplayResult> run_all(const Options& options, ReplayRun& run) {
@@ -75,9 +144,9 @@ Result<ReplayResult> run_all(const Options& options, ReplayRun& run) {
     Progress progress{"replay", run.refresh_count(), options.quiet};
     for (std::uint64_t i = 0; i < run.refresh_count(); ++i) {
         const std::uint64_t refresh = run.first_refresh() + i;
-        const RefreshPictures& pictures = run.draw(refresh);
+        run.draw(refresh);
         if (options.save_frames) {
-            const Status saved = save_pictures(options.out / "frames", refresh, result.labels, pictures);
+            const Status saved = ReplayPictures{options, run}.save(options.out / "frames", refresh);
             if (!saved) return saved.error();
         }
         result.refreshes.push_back(run.judge());
@@ -91,15 +160,16 @@ Result<ReplayResult> run_all(const Options& options, ReplayRun& run) {
 }
 
 /// The strip is drawn anew when the run is over, since only then it is known which frame is typical.
-Status write_strip(ReplayRun& run, const ReplayResult& result, const std::filesystem::path& path) {
+Status write_strip(const Options& options, ReplayRun& run, const ReplayResult& result,
+                   const std::filesystem::path& path) {
     const RefreshRecord& record = result.refreshes[typical_refresh(result)];
-    const RefreshPictures& pictures = run.draw(record.refresh);
-    return write_png(path, strip_of(result.labels, pictures, record));
+    run.draw(record.refresh);
+    return write_png(path, strip_of(run, ReplayPictures{options, run}, record));
 }
 
 Status write_folder(const Options& options, ReplayRun& run, const ReplayResult& result, const Report& report) {
     const std::filesystem::path strip_path = options.out / "strip.png";
-    const Status strip = write_strip(run, result, strip_path);
+    const Status strip = write_strip(options, run, result, strip_path);
     if (!strip) return strip;
     const auto strip_png = read_file(strip_path);
     if (!strip_png) return strip_png.error();

@@ -26,12 +26,40 @@ std::optional<double> disoccluded_of(const ImageErrors& errors) { return errors.
 std::optional<double> out_of_frame_of(const ImageErrors& errors) { return errors.attribution.out_of_frame; }
 std::optional<double> stale_shading_of(const ImageErrors& errors) { return errors.attribution.stale_shading; }
 
-std::vector<double> known_values(const ReplayResult& result, std::size_t method, Figure figure) {
+std::optional<double> ssim_to_same_of(const ImageErrors& errors) { return errors.ssim_to_same; }
+
+std::vector<double> known_values(const ReplayResult& result, std::size_t method, Figure figure,
+                                 std::optional<std::size_t> only_eye) {
     std::vector<double> values;
     for (const RefreshRecord& record : result.refreshes) {
-        if (const std::optional<double> value = figure(record.errors[method])) values.push_back(*value);
+        for (std::size_t eye = 0; eye < record.eyes.size(); ++eye) {
+            if (only_eye && *only_eye != eye) continue;
+            const std::optional<double> value = figure(record.eyes[eye].errors[method]);
+            if (value) values.push_back(*value);
+        }
     }
     return values;
+}
+
+/// Of both eyes, where one refresh has one value.
+std::optional<double> mean_over_eyes(const RefreshRecord& record, std::size_t method, Figure figure) {
+    double sum = 0.0;
+    double count = 0.0;
+    for (const EyeRecord& eye : record.eyes) {
+        const std::optional<double> value = figure(eye.errors[method]);
+        if (!value) continue;
+        sum += *value;
+        count += 1.0;
+    }
+    if (count == 0.0) return std::nullopt;
+    return sum / count;
+}
+
+bool has_two_eyes(const ReplayResult& result) { return result.refreshes.front().eyes.size() == 2; }
+
+std::uint64_t picture_count(const ReplayResult& result, std::optional<std::size_t> only_eye) {
+    const std::size_t eyes = result.refreshes.empty() ? 1 : result.refreshes.front().eyes.size();
+    return result.refreshes.size() * (only_eye ? 1 : eyes);
 }
 
 /// The first value warmed caches up and grew buffers; with only one there is nothing better.
@@ -46,6 +74,7 @@ void add_errors(Report& report, const std::string& path, const ErrorSummary& sum
     report.set(path + "/psnr_db", summary.psnr_db);
     report.set(path + "/hole_fraction", summary.hole_fraction);
     report.set(path + "/flicker", summary.flicker);
+    if (summary.ssim_to_same) report.set(path + "/ssim_to_fresh_same", summary.ssim_to_same);
     report.set(path + "/attribution/resampled", summary.attribution.resampled);
     report.set(path + "/attribution/disoccluded", summary.attribution.disoccluded);
     report.set(path + "/attribution/out_of_frame", summary.attribution.out_of_frame);
@@ -55,7 +84,9 @@ void add_errors(Report& report, const std::string& path, const ErrorSummary& sum
 void add_cause_shares(Report& report, const ReplayResult& result) {
     const auto add = [&](const char* key, double AttributedError::*part) {
         std::vector<double> shares;
-        for (const RefreshRecord& record : result.refreshes) shares.push_back(record.cause_shares.*part);
+        for (const RefreshRecord& record : result.refreshes) {
+            for (const EyeRecord& eye : record.eyes) shares.push_back(eye.cause_shares.*part);
+        }
         report.set(fmt::format("cause_shares/{}", key), distribution_of(shares));
     };
     add("resampled", &AttributedError::resampled);
@@ -72,11 +103,23 @@ void add_costs(Report& report, const ReplayResult& result) {
     const ReplayCosts& costs = result.costs;
     report.set("cost_ms/warp", cost_of(costs.warp_ms.front()));
     report.set("cost_ms/prepare", cost_of(costs.prepare_ms.front()));
-    report.set("cost_ms/app", cost_of(costs.app_ms));
+    report.set("cost_ms/app", cost_of(costs.app_ms.front()));
     for (std::size_t i = 1; i < result.labels.size(); ++i) {
         const std::string path = "cost_ms/baselines/" + result.labels[i];
         report.set(path + "/warp", cost_of(costs.warp_ms[i]));
         report.set(path + "/prepare", cost_of(costs.prepare_ms[i]));
+        if (has_two_eyes(result)) report.set(path + "/app", cost_of(costs.app_ms[i]));
+    }
+}
+
+void add_stereo(Report& report, const std::string& path, const ReplayResult& result, std::size_t method) {
+    const StereoSummary stereo = stereo_summary_of(result, method);
+    report.set(path + "/rivalry_fraction", stereo.rivalry_fraction);
+    report.set(path + "/vertical_disparity_px", stereo.vertical_disparity_px);
+    report.set(path + "/colour_excess", stereo.colour_excess);
+    for (const Eye eye : kEyes) {
+        add_errors(report, fmt::format("{}/{}/error", path, name_of(eye)),
+                   summary_of(result, method, static_cast<std::size_t>(eye)));
     }
 }
 
@@ -85,13 +128,40 @@ std::string csv_field(const std::string& text) {
     return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
 }
 
+std::string csv_of(const std::optional<double>& number) { return number ? fmt::format("{}", *number) : ""; }
+
+std::string csv_columns(const std::string& label, bool two_eyes) {
+    std::string columns;
+    const auto add = [&](std::string_view figure) { columns += "," + csv_field(fmt::format("{}.{}", label, figure)); };
+    for (const char* figure : {"flip", "ssim", "psnr_db", "hole_fraction"}) add(figure);
+    for (const char* cause : kCauses) add(fmt::format("attribution.{}", cause));
+    add("flicker");
+    if (!two_eyes) return columns;
+    for (const char* figure : {"rivalry_fraction", "vertical_disparity_px", "colour_excess"}) add(figure);
+    return columns;
+}
+
+/// One method's figures of one eye, then, with two eyes, those of both.
+std::string csv_of(const RefreshRecord& record, std::size_t eye, std::size_t method) {
+    const ImageErrors& errors = record.eyes[eye].errors[method];
+    std::string csv =
+        fmt::format(",{},{},{},{}", errors.flip, errors.ssim, csv_of(errors.psnr_db), errors.hole_fraction);
+    csv += csv_of(errors.attribution) + "," + csv_of(errors.flicker);
+    if (record.consistency.empty()) return csv;
+    const std::optional<EyeConsistency>& eyes = record.consistency[method];
+    if (!eyes) return csv + ",,,";
+    return csv +
+           fmt::format(",{},{},{}", eyes->rivalry_fraction, csv_of(eyes->vertical_disparity_px), eyes->colour_excess);
+}
+
 LinePlot plot_of(const ReplayResult& result, std::string title, std::string y_label, Figure figure) {
     LinePlot plot{std::move(title), "photon time, s", std::move(y_label), {}, {}};
     for (const RefreshRecord& record : result.refreshes) plot.x.push_back(record.photon_s);
     for (std::size_t i = 0; i < result.labels.size(); ++i) {
         PlotSeries series{result.labels[i], {}};
         for (const RefreshRecord& record : result.refreshes) {
-            series.values.push_back(figure(record.errors[i]).value_or(std::numeric_limits<double>::quiet_NaN()));
+            series.values.push_back(
+                mean_over_eyes(record, i, figure).value_or(std::numeric_limits<double>::quiet_NaN()));
         }
         plot.series.push_back(std::move(series));
     }
@@ -124,12 +194,14 @@ std::vector<std::vector<std::string>> attribution_table(const ReplayResult& resu
                         mean(parts.out_of_frame), mean(parts.stale_shading)});
     }
     AttributedError shares;
-    const auto count = static_cast<double>(result.refreshes.size());
+    const auto count = static_cast<double>(picture_count(result, {}));
     for (const RefreshRecord& record : result.refreshes) {
-        shares.resampled += record.cause_shares.resampled / count;
-        shares.disoccluded += record.cause_shares.disoccluded / count;
-        shares.out_of_frame += record.cause_shares.out_of_frame / count;
-        shares.stale_shading += record.cause_shares.stale_shading / count;
+        for (const EyeRecord& eye : record.eyes) {
+            shares.resampled += eye.cause_shares.resampled / count;
+            shares.disoccluded += eye.cause_shares.disoccluded / count;
+            shares.out_of_frame += eye.cause_shares.out_of_frame / count;
+            shares.stale_shading += eye.cause_shares.stale_shading / count;
+        }
     }
     rows.push_back({"(share of the pixels)", short_number(shares.sum()), short_number(shares.resampled),
                     short_number(shares.disoccluded), short_number(shares.out_of_frame),
@@ -137,18 +209,50 @@ std::vector<std::vector<std::string>> attribution_table(const ReplayResult& resu
     return rows;
 }
 
+void add_stereo_table(HtmlReport& page, const ReplayResult& result) {
+    page.add_heading("How well both eyes agree: mean over the run (p95)");
+    page.add_paragraph(
+        "Over pixel pairs that see the same point. Rivalry: one of both was made up, the other seen. Vertical "
+        "disparity: pixels beyond the truth's. Colour excess: difference beyond the truth's, sRGB in [0, 1].");
+    std::vector<std::vector<std::string>> rows = {{"method", "rivalry", "vertical disparity, px", "colour excess"}};
+    const auto text = [](const std::optional<Distribution>& d) {
+        return d ? fmt::format("{} ({})", short_number(d->mean), short_number(d->p95)) : std::string{"-"};
+    };
+    for (std::size_t i = 0; i < result.labels.size(); ++i) {
+        const StereoSummary stereo = stereo_summary_of(result, i);
+        rows.push_back({result.labels[i], text(stereo.rivalry_fraction), text(stereo.vertical_disparity_px),
+                        text(stereo.colour_excess)});
+    }
+    page.add_table(rows);
+}
+
 }  // namespace
 
-ErrorSummary summary_of(const ReplayResult& result, std::size_t method) {
-    const std::vector<double> psnr_db = known_values(result, method, psnr_of);
-    const auto over_run = [&](Figure figure) { return distribution_of(known_values(result, method, figure)); };
+ErrorSummary summary_of(const ReplayResult& result, std::size_t method, std::optional<std::size_t> eye) {
+    const std::vector<double> psnr_db = known_values(result, method, psnr_of, eye);
+    const auto over_run = [&](Figure figure) { return distribution_of(known_values(result, method, figure, eye)); };
     return {over_run(flip_of),
             over_run(ssim_of),
             distribution_of(psnr_db),
             over_run(holes_of),
             over_run(flicker_of),
+            over_run(ssim_to_same_of),
             {over_run(resampled_of), over_run(disoccluded_of), over_run(out_of_frame_of), over_run(stale_shading_of)},
-            result.refreshes.size() - psnr_db.size()};
+            picture_count(result, eye) - psnr_db.size()};
+}
+
+StereoSummary stereo_summary_of(const ReplayResult& result, std::size_t method) {
+    std::vector<double> rivalry;
+    std::vector<double> vertical_px;
+    std::vector<double> excess;
+    for (const RefreshRecord& record : result.refreshes) {
+        if (record.consistency.empty() || !record.consistency[method]) continue;
+        const EyeConsistency& eyes = *record.consistency[method];
+        rivalry.push_back(eyes.rivalry_fraction);
+        excess.push_back(eyes.colour_excess);
+        if (eyes.vertical_disparity_px) vertical_px.push_back(*eyes.vertical_disparity_px);
+    }
+    return {distribution_of(rivalry), distribution_of(vertical_px), distribution_of(excess)};
 }
 
 std::size_t typical_refresh(const ReplayResult& result) {
@@ -156,8 +260,8 @@ std::size_t typical_refresh(const ReplayResult& result) {
     std::iota(order.begin(), order.end(), std::size_t{0});
     const auto middle = order.begin() + static_cast<std::ptrdiff_t>((order.size() - 1) / 2);
     std::nth_element(order.begin(), middle, order.end(), [&](std::size_t a, std::size_t b) {
-        const double flip_a = result.refreshes[a].errors.front().flip;
-        const double flip_b = result.refreshes[b].errors.front().flip;
+        const std::optional<double> flip_a = mean_over_eyes(result.refreshes[a], 0, flip_of);
+        const std::optional<double> flip_b = mean_over_eyes(result.refreshes[b], 0, flip_of);
         return flip_a != flip_b ? flip_a < flip_b : a < b;
     });
     return *middle;
@@ -177,7 +281,9 @@ void add_replay_results(Report& report, const ReplayResult& result) {
         const ErrorSummary baseline = summary_of(result, i);
         add_errors(report, fmt::format("baselines/{}/error", result.labels[i]), baseline);
         report.set(fmt::format("baselines/{}/equal_frames", result.labels[i]), baseline.equal_frames);
+        if (has_two_eyes(result)) add_stereo(report, fmt::format("baselines/{}/stereo", result.labels[i]), result, i);
     }
+    if (has_two_eyes(result)) add_stereo(report, "stereo", result, 0);
     std::vector<double> ages_ms;
     for (const RefreshRecord& record : result.refreshes) ages_ms.push_back(record.frame_age_ms());
     report.set("frame_age_ms", distribution_of(ages_ms));
@@ -186,27 +292,21 @@ void add_replay_results(Report& report, const ReplayResult& result) {
 }
 
 std::string replay_csv(const ReplayResult& result) {
+    const bool two_eyes = has_two_eyes(result);
     std::string csv = "refresh,frame,latched_s,scanout_begin_s,photon_s,pose_sampled_s,frame_age_ms";
+    if (two_eyes) csv += ",eye";
     for (const char* cause : kCauses) csv += fmt::format(",cause_shares.{}", cause);
-    for (const std::string& label : result.labels) {
-        for (const char* figure : {"flip", "ssim", "psnr_db", "hole_fraction"}) {
-            csv += "," + csv_field(fmt::format("{}.{}", label, figure));
-        }
-        for (const char* cause : kCauses) csv += "," + csv_field(fmt::format("{}.attribution.{}", label, cause));
-        csv += "," + csv_field(fmt::format("{}.flicker", label));
-    }
+    for (const std::string& label : result.labels) csv += csv_columns(label, two_eyes);
     csv += "\n";
     for (const RefreshRecord& record : result.refreshes) {
-        csv += fmt::format("{},{},{},{},{},{},{:.6f}", record.refresh, record.frame, record.latched_s,
-                           record.scanout_begin_s, record.photon_s, record.pose_sampled_s, record.frame_age_ms());
-        csv += csv_of(record.cause_shares);
-        for (const ImageErrors& errors : record.errors) {
-            csv += fmt::format(",{},{},{},{}", errors.flip, errors.ssim,
-                               errors.psnr_db ? fmt::format("{}", *errors.psnr_db) : "", errors.hole_fraction);
-            csv += csv_of(errors.attribution);
-            csv += errors.flicker ? fmt::format(",{}", *errors.flicker) : ",";
+        for (std::size_t eye = 0; eye < record.eyes.size(); ++eye) {
+            csv += fmt::format("{},{},{},{},{},{},{:.6f}", record.refresh, record.frame, record.latched_s,
+                               record.scanout_begin_s, record.photon_s, record.pose_sampled_s, record.frame_age_ms());
+            if (two_eyes) csv += fmt::format(",{}", name_of(static_cast<Eye>(eye)));
+            csv += csv_of(record.eyes[eye].cause_shares);
+            for (std::size_t i = 0; i < result.labels.size(); ++i) csv += csv_of(record, eye, i);
+            csv += "\n";
         }
-        csv += "\n";
     }
     return csv;
 }
@@ -223,6 +323,7 @@ std::string replay_html(const ReplayResult& result, const std::string& title, co
         rows.push_back(table_row(result.labels[i], summary_of(result, i), cost_of(result.costs.warp_ms[i])));
     }
     page.add_table(rows);
+    if (has_two_eyes(result)) add_stereo_table(page, result);
     page.add_heading("Where FLIP comes from: mean over the run, and the share of the pixels");
     page.add_paragraph(
         "Disoccluded: the source saw something else in the surface's place. Out of frame: the place lies outside of "

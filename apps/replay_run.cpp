@@ -1,30 +1,17 @@
 #include "apps/replay_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "apps/parallel.h"
-
-#include "client_renderer/hidden_layer.h"
-#include "client_renderer/reveal_margin.h"
+#include "apps/stopwatch.h"
+#include "core/metrics.h"
 
 namespace lw {
 
 namespace {
 
 constexpr double kDefaultAppHz = 10.0;
-
-/// Wall time for the cost figures only; the run itself knows nothing but its virtual clock.
-class Stopwatch {
-public:
-    [[nodiscard]] double ms() const {
-        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
-    }
-
-private:
-    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 ReplayTiming timing_of(const Options& options) {
     ReplayTiming timing;
@@ -35,10 +22,15 @@ ReplayTiming timing_of(const Options& options) {
     return timing;
 }
 
-Camera camera_at(const Options& options, const Pose& world_from_eye) {
-    Camera camera = options.camera();
-    camera.world_from_eye = world_from_eye;
-    return camera;
+std::string label_of(const Options& options) {
+    const bool by_rows = options.stereo.on && options.stereo.mode == StereoMode::scanline;
+    return by_rows ? std::string{name_of(StereoMode::scanline)} : options.method;
+}
+
+void mark_invented(const Image<Coverage>& coverage, Image<std::uint8_t>& invented) {
+    invented.resize(coverage.size_px());
+    std::ranges::transform(coverage.pixels(), invented.pixels().begin(),
+                           [](Coverage c) { return c == Coverage::reached ? std::uint8_t{0} : std::uint8_t{1}; });
 }
 
 }  // namespace
@@ -48,8 +40,7 @@ ReplayRun::ReplayRun(const Options& options, const ReplayTiming& timing, TraceFe
       clock_{timing},
       feed_{std::move(feed)},
       renderer_{stage.renderer.get()},
-      refresh_count_{static_cast<std::uint64_t>(std::max(1.0, std::round(options.seconds * options.display_hz)))},
-      source_cameras_{options.camera(), options.source} {}
+      refresh_count_{static_cast<std::uint64_t>(std::max(1.0, std::round(options.seconds * options.display_hz)))} {}
 
 Result<ReplayRun> ReplayRun::create(const Options& options, const Trace& trace, const SceneStage& stage) {
     // The run's clock starts at zero, and with it the trace and the tracker.
@@ -63,164 +54,194 @@ Result<ReplayRun> ReplayRun::create(const Options& options, const Trace& trace, 
     auto server = make_predictor(options.predict.value_or("oracle"));
     if (!server) return server.error();
     run.server_predictor_ = *std::move(server);
-    const Status made = run.make_methods();
+    run.make_eyes(trace);
+    const Status made = run.make_methods(trace);
     if (!made) return made.error();
     return run;
 }
 
-Status ReplayRun::make_methods() {
-    labels_ = {options_.method};
+void ReplayRun::make_eyes(const Trace& trace) {
+    if (!options_.stereo.on) {
+        eyes_.emplace_back().view.fov = options_.camera().fov;
+        return;
+    }
+    rig_ = stereo_rig_of(options_, &trace);
+    for (const EyeView& view : rig_->eyes) eyes_.emplace_back().view = view;
+}
+
+Status ReplayRun::make_methods(const Trace& trace) {
+    labels_ = {label_of(options_)};
     labels_.insert(labels_.end(), options_.baselines.begin(), options_.baselines.end());
     for (const std::string& label : labels_) {
-        if (is_fresh_baseline(label)) {
-            warpers_.emplace_back();
-            continue;
-        }
-        Result<FrameWarper> warper = FrameWarper::create(label, options_.fill);
-        if (!warper) return warper.error();
-        warpers_.emplace_back(*std::move(warper));
+        Result<ReplayMethod> method = ReplayMethod::create(label, options_, rig_);
+        if (!method) return method.error();
+        methods_.push_back(*std::move(method));
+        const Status found = find_client(methods_.size() - 1, trace);
+        if (!found) return found;
     }
-    for (RefreshPictures* pictures : {&pictures_, &pictures_before_}) {
-        pictures->shown.resize(labels_.size());
-        pictures->hole_fraction.resize(labels_.size());
+    for (ReplayEye& eye : eyes_) {
+        for (RefreshPictures* pictures : {&eye.pictures, &eye.pictures_before}) {
+            pictures->shown.resize(labels_.size());
+            pictures->hole_fraction.resize(labels_.size());
+            pictures->invented.resize(labels_.size());
+        }
     }
     costs_.prepare_ms.resize(labels_.size());
     costs_.warp_ms.resize(labels_.size());
     return Done{};
 }
 
-double ReplayRun::pixels_per_degree() const { return lw::pixels_per_degree(options_.camera()); }
-
-double ReplayRun::source_pixels_ratio() const {
-    double sum = 0.0;
-    for (const Camera& view : source_views_) sum += pixels_ratio(view, options_.camera());
-    return source_views_.empty() ? 0.0 : sum / static_cast<double>(source_views_.size());
+// The client that draws what the method needs; pictures that need none are judged by --method's.
+Status ReplayRun::find_client(std::size_t method, const Trace& trace) {
+    const std::optional<StereoMode> mode = methods_[method].stereo_mode();
+    const auto known = std::ranges::find(client_modes_, mode);
+    client_index_.push_back(static_cast<std::size_t>(known - client_modes_.begin()));
+    if (known != client_modes_.end()) return Done{};
+    Options drawn = options_;
+    drawn.stereo.mode = mode.value_or(options_.stereo.mode);
+    Result<std::vector<DrawnView>> views = drawn_views_of(drawn, &trace);
+    if (!views) return views.error();
+    clients_.emplace_back(options_, *std::move(views));
+    client_modes_.push_back(mode);
+    return Done{};
 }
 
-const Camera& ReplayRun::source_camera_of(std::uint64_t frame) {
-    for (std::uint64_t next = source_views_.size(); next <= frame; ++next) {
-        const TimePoint begin = clock_.sampled(next);
-        source_views_.push_back(source_cameras_.next(feed_, begin, clock_.end_of_life(next) - begin));
+double ReplayRun::pixels_per_degree() const { return lw::pixels_per_degree(camera_at(eyes_.front(), {})); }
+
+ReplayCosts ReplayRun::costs() const {
+    ReplayCosts costs = costs_;
+    for (std::size_t i = 0; i < labels_.size(); ++i) costs.app_ms.push_back(client_of(i).draw_ms());
+    return costs;
+}
+
+Camera ReplayRun::camera_at(const ReplayEye& eye, const Pose& world_from_head) const {
+    return eye_camera(options_.camera(), eye.view, world_from_head);
+}
+
+void ReplayRun::draw_client_frames(std::uint64_t frame) {
+    const ReplayHead head{clock_, feed_, *client_predictor_};
+    for (std::size_t i = 0; i < clients_.size(); ++i) {
+        clients_[i].draw(frame, head, *renderer_,
+                         [&](std::span<const std::shared_ptr<Layer>> layers) { prepare(i, layers); });
     }
-    return source_views_[frame];
 }
 
-void ReplayRun::draw_client_frame(std::uint64_t frame) {
-    const TimePoint begin = clock_.sampled(frame);
-    const bool predicts = options_.source_pose == SourcePose::predicted;
-    const TimePoint drawn_for = predicts ? clock_.middle_of_life(frame) : begin;
-    const PredictedPose pose = client_predictor_->predict(feed_, begin, drawn_for);
-
-    auto layer = std::make_shared<Layer>();
-    layer->camera = source_camera_of(frame);
-    layer->camera.world_from_eye = pose.world_from_head;
-    layer->pose_sampled = pose.newest_sample;
-    layer->scene_time_s = seconds_of(drawn_for);
-    const double head_motion_m =
-        reveal_margin_m(options_.reveal_margin_m, *client_predictor_, feed_, begin, pose.world_from_head,
-                        clock_.published(frame), clock_.end_of_life(frame));
-    renderer_->set_reveal_margin(head_motion_m);
-    renderer_->set_viewer_moves(options_.culling.min_pixels > 0.0 &&
-                                viewer_moves(*client_predictor_, feed_, begin, clock_.end_of_life(frame)));
-    const Stopwatch drawing;
-    renderer_->use_billboards(true);  // by the client alone: truth and fresh pictures are meshes
-    renderer_->draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
-    client_draws_.push_back(renderer_->counters());
-    renderer_->use_billboards(false);
-    renderer_->mover_placements(layer->scene_time_s, layer->movers);
-    std::vector<std::shared_ptr<Layer>> layers{std::move(layer)};
-    if (options_.source.layers == 2) {
-        auto hidden = std::make_shared<Layer>();
-        draw_hidden_layer(*renderer_, *layers.front(), options_.source.samples_per_axis, head_motion_m, *hidden);
-        layers.push_back(std::move(hidden));
-    }
-    costs_.app_ms.push_back(drawing.ms());
-    prepare(layers);
-    const TimePoint published = clock_.published(frame);
-    frame_ = {frame + 1, {layers.begin(), layers.end()}, {pose.newest_sample, begin, published, published}};
-    drawn_frame_ = frame;
-}
-
-void ReplayRun::prepare(std::span<const std::shared_ptr<Layer>> layers) {
-    for (std::size_t i = 0; i < warpers_.size(); ++i) {
-        if (!warpers_[i]) continue;
+void ReplayRun::prepare(std::size_t client, std::span<const std::shared_ptr<Layer>> layers) {
+    for (std::size_t i = 0; i < methods_.size(); ++i) {
+        if (!methods_[i].warps() || client_index_[i] != client) continue;
         const Stopwatch preparing;
-        for (const auto& layer : layers) warpers_[i]->prepare(*layer);
+        for (const auto& layer : layers) methods_[i].prepare(*layer);
         costs_.prepare_ms[i].push_back(preparing.ms());
     }
 }
 
-void ReplayRun::show(std::size_t method, const WarpTarget& target, const Camera& true_camera, double photon_s) {
-    if (labels_[method] == "fresh") {
-        pictures_.shown[method] = truth_.colour();
-        pictures_.hole_fraction[method] = 0.0;
-        return;
-    }
-    if (!warpers_[method]) {
-        // `fresh-same` has the source's samples, neither its density nor its guard band: what it shows is the display's
-        // picture, drawn as well as the source was.
-        renderer_->draw_resolved(true_camera, photon_s, options_.source.samples_per_axis, fresh_pixels_);
-        pictures_.shown[method] = fresh_pixels_.colour;
-        pictures_.hole_fraction[method] = 0.0;
-        return;
-    }
-    FrameWarper& warper = *warpers_[method];
-    const Stopwatch warping;
-    const DisplayFrame& shown = warper.warp(frame_, target);
-    costs_.warp_ms[method].push_back(warping.ms());
-    pictures_.shown[method] = shown.colour;
-    pictures_.hole_fraction[method] = warper.hole_fraction();
-    if (method == 0) bad_depth_count_ += warper.counters().bad_depth;
+void ReplayRun::draw_truth(ReplayEye& eye, const Pose& world_from_head, double photon_s) {
+    std::swap(eye.pictures, eye.pictures_before);
+    std::swap(eye.truth, eye.truth_before);
+    const Camera camera = camera_at(eye, world_from_head);
+    renderer_->draw_supersampled(camera, photon_s, options_.truth_samples, eye.pictures.truth);
+    eye.truth.draw(*renderer_, camera, photon_s);
 }
 
-const RefreshPictures& ReplayRun::draw(std::uint64_t refresh) {
-    has_before_ = !truth_.colour().empty() && record_.refresh + 1 == refresh;
-    std::swap(pictures_, pictures_before_);
-    std::swap(truth_, truth_before_);
+// `fresh-same` has the source's samples, neither its density nor its guard band: what it shows is the display's
+// picture, drawn as well as the source was.
+void ReplayRun::show_fresh(std::size_t method, const Pose& true_head, double photon_s) {
+    for (ReplayEye& eye : eyes_) {
+        eye.pictures.hole_fraction[method] = 0.0;
+        if (rig_) eye.pictures.invented[method] = Image<std::uint8_t>{options_.size_px};
+        if (labels_[method] == "fresh") {
+            eye.pictures.shown[method] = eye.truth.colour();
+            continue;
+        }
+        renderer_->draw_resolved(camera_at(eye, true_head), photon_s, options_.source.samples_per_axis, fresh_pixels_);
+        eye.pictures.shown[method] = fresh_pixels_.colour;
+    }
+}
+
+void ReplayRun::show(std::size_t method, const Pose& predicted_head, const Pose& true_head, double photon_s) {
+    if (!methods_[method].warps()) return show_fresh(method, true_head, photon_s);
+    WarpTarget target;
+    target.camera = options_.camera();
+    target.camera.world_from_eye = predicted_head;
+    target.movers = eyes_.front().truth.movers();
+    const Stopwatch warping;
+    methods_[method].warp(client_of(method).frame(), target);
+    costs_.warp_ms[method].push_back(warping.ms());
+    for (std::size_t i = 0; i < eyes_.size(); ++i) {
+        const FrameWarper& shown = methods_[method].eye(i);
+        eyes_[i].pictures.shown[method] = shown.display_frame().colour;
+        eyes_[i].pictures.hole_fraction[method] = shown.hole_fraction();
+        if (rig_) mark_invented(shown.display_frame().coverage, eyes_[i].pictures.invented[method]);
+    }
+    if (method == 0) bad_depth_count_ += methods_[method].counters().bad_depth;
+}
+
+void ReplayRun::draw(std::uint64_t refresh) {
+    has_before_ = !eyes_.front().truth.colour().empty() && record_.refresh + 1 == refresh;
     const std::uint64_t frame = clock_.frame_shown_at(refresh);
-    if (drawn_frame_ != frame) draw_client_frame(frame);
-    renderer_->set_viewer_moves(false);  // the truth shows the smallest things
+    draw_client_frames(frame);
 
     const Refresh times = clock_.refresh(refresh);
     const TimePoint photon = times.photon();
     const double photon_s = seconds_of(photon);
-    const PredictedPose pose = server_predictor_->predict(feed_, clock_.latched(refresh), photon);
-    const Camera true_camera = camera_at(options_, feed_.pose_at(photon));
-    renderer_->draw_supersampled(true_camera, photon_s, options_.truth_samples, pictures_.truth);
-    truth_.draw(*renderer_, true_camera, photon_s);
-    for (std::size_t i = 0; i < labels_.size(); ++i) {
-        show(i, {camera_at(options_, pose.world_from_head), truth_.movers()}, true_camera, photon_s);
-    }
+    const PredictedPose head = server_predictor_->predict(feed_, clock_.latched(refresh), photon);
+    const Pose true_head = feed_.pose_at(photon);
+    for (ReplayEye& eye : eyes_) draw_truth(eye, true_head, photon_s);
+    for (std::size_t i = 0; i < labels_.size(); ++i) show(i, head.world_from_head, true_head, photon_s);
     record_ = {refresh,
                frame,
                seconds_of(clock_.latched(refresh)),
                seconds_of(times.scanout_begin),
                photon_s,
-               seconds_of(frame_.layers.front()->pose_sampled),
+               seconds_of(client_of(0).frame().layers.front()->pose_sampled),
                {},
                {}};
-    return pictures_;
 }
 
-std::optional<double> ReplayRun::flicker_of(std::size_t method, const Image<int>& pixels_before) const {
-    if (!has_before_) return std::nullopt;
-    return flicker(pictures_.truth, pictures_.shown[method], pictures_before_.truth, pictures_before_.shown[method],
-                   pixels_before);
+EyeRecord ReplayRun::judge_eye(std::size_t index) const {
+    const ReplayEye& eye = eyes_[index];
+    const int threads = options_.threads;
+    EyeRecord record;
+    record.errors.resize(labels_.size());
+    std::vector<Image<ErrorCause>> causes;  // by client
+    for (const ReplayClient& client : clients_) {
+        causes.push_back(eye.truth.causes(client.layer_for(static_cast<Eye>(index)), threads));
+    }
+    record.cause_shares = shares_of(causes[client_index_.front()]);
+    const Image<int> pixels_before = has_before_ ? eye.truth.pixels_in(eye.truth_before, threads) : Image<int>{};
+    const auto same = std::ranges::find(labels_, "fresh-same") - labels_.begin();
+    const double ppd = pixels_per_degree();
+    for_each_in_parallel(labels_.size(), threads, [&](std::size_t i) {
+        const ColourImage& shown = eye.pictures.shown[i];
+        ImageErrors& errors = record.errors[i];
+        errors = errors_against(eye.pictures.truth, shown, ppd, &causes[client_index_[i]]);
+        errors.hole_fraction = eye.pictures.hole_fraction[i];
+        if (has_before_) {
+            errors.flicker = flicker(eye.pictures.truth, shown, eye.pictures_before.truth, eye.pictures_before.shown[i],
+                                     pixels_before);
+        }
+        const auto same_index = static_cast<std::size_t>(same);
+        if (same_index < labels_.size()) {
+            errors.ssim_to_same = ssim(eye.pictures.shown[same_index], shown);
+        }
+    });
+    return record;
+}
+
+std::optional<EyeConsistency> ReplayRun::consistency_of(std::size_t method) const {
+    const SampledView views[] = {eyes_[0].truth.view(), eyes_[1].truth.view()};
+    const auto shown = [&](std::size_t i) -> ShownEye {
+        const RefreshPictures& pictures = eyes_[i].pictures;
+        return {views[i], pictures.truth, pictures.shown[method], pictures.invented[method]};
+    };
+    return eye_consistency(shown(0), shown(1), options_.threads);
 }
 
 RefreshRecord ReplayRun::judge() const {
     RefreshRecord record = record_;
-    record.errors.resize(labels_.size());
-    const double ppd = pixels_per_degree();
-    const int threads = options_.threads;
-    const Image<ErrorCause> causes = truth_.causes(*frame_.layers.front(), threads);
-    const Image<int> pixels_before = has_before_ ? truth_.pixels_in(truth_before_, threads) : Image<int>{};
-    record.cause_shares = shares_of(causes);
-    for_each_in_parallel(labels_.size(), threads, [&](std::size_t i) {
-        record.errors[i] = errors_against(pictures_.truth, pictures_.shown[i], ppd, &causes);
-        record.errors[i].hole_fraction = pictures_.hole_fraction[i];
-        record.errors[i].flicker = flicker_of(i, pixels_before);
-    });
+    for (std::size_t i = 0; i < eyes_.size(); ++i) record.eyes.push_back(judge_eye(i));
+    if (!rig_) return record;
+    for (std::size_t i = 0; i < labels_.size(); ++i) record.consistency.push_back(consistency_of(i));
     return record;
 }
 

@@ -25,10 +25,10 @@ public:
     [[nodiscard]] Image<ErrorCause> causes(const Layer& source, int threads) const;
     /// Where each pixel's surface was in an earlier truth. Any thread.
     [[nodiscard]] Image<int> pixels_in(const ReplayTruth& before, int threads) const;
-
-private:
+    /// Refers to this object.
     [[nodiscard]] SampledView view() const { return {camera_, pixels_.depth, pixels_.object_id, movers_}; }
 
+private:
     Camera camera_;
     CpuPixels pixels_;
     std::vector<ObjectTransform> movers_;

@@ -121,6 +121,11 @@ void describe_settings(Report& report, const Options& options) {
         set("guard_band_deg", "auto");
     }
     set("layers", options.source.layers);
+    set("eyes", options.stereo.on ? "stereo" : "mono");
+    if (options.stereo.on) {
+        set("stereo", name_of(options.stereo.mode));
+        set("ipd_mm", options.stereo.ipd_m * 1e3);
+    }
     set("app_hz", options.app_hz);
     set("display_hz", options.display_hz);
     if (options.predict) set("predict", *options.predict);

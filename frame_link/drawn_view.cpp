@@ -1,5 +1,6 @@
 #include "frame_link/drawn_view.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -13,8 +14,17 @@ constexpr std::array<std::pair<std::string_view, StereoMode>, 3> kModes{{
 }};
 
 DrawnView eye_view(const Camera& display, const StereoRig& rig, Eye eye) {
-    DrawnView view{std::string{name_of(eye)}, eye_camera(display, rig.eye(eye), {}), rig.eye(eye).head_from_eye, eye};
+    DrawnView view{std::string{name_of(eye)}, eye_camera(display, rig.eye(eye), {}), rig.eye(eye).head_from_eye, eye,
+                   0.0};
     return view;
+}
+
+double farthest_eye_m(const StereoRig& rig, const Pose& head_from_view) {
+    double farthest_m = 0.0;
+    for (const EyeView& eye : rig.eyes) {
+        farthest_m = std::max(farthest_m, glm::distance(eye.head_from_eye.position_m, head_from_view.position_m));
+    }
+    return farthest_m;
 }
 
 }  // namespace
@@ -46,7 +56,8 @@ Result<std::vector<DrawnView>> stereo_views(const Camera& display, const StereoR
     if (mode == StereoMode::one_render) {
         const Result<Camera> centre = centre_view(display, rig);
         if (!centre) return centre.error();
-        return std::vector{DrawnView{"main", *centre, centre->world_from_eye, {}}};
+        const Pose& head_from_centre = centre->world_from_eye;
+        return std::vector{DrawnView{"main", *centre, head_from_centre, {}, farthest_eye_m(rig, head_from_centre)}};
     }
     const DrawnView left = eye_view(display, rig, Eye::left);
     DrawnView right = eye_view(display, rig, Eye::right);
@@ -56,6 +67,7 @@ Result<std::vector<DrawnView>> stereo_views(const Camera& display, const StereoR
     }
     right.name = "main";
     right.for_eye.reset();
+    right.eye_distance_m = farthest_eye_m(rig, right.head_from_view);
     return std::vector{std::move(right)};
 }
 

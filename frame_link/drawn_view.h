@@ -27,13 +27,16 @@ enum class StereoMode : std::uint8_t {
 /// One view of a client's frame.
 struct DrawnView {
     std::string name = "main";
-    Camera camera;               ///< size, field of view and near plane; its pose is not looked at
-    Pose head_from_view;         ///< where it is drawn from
-    std::optional<Eye> for_eye;  ///< nothing: for whoever looks
+    Camera camera;                ///< size, field of view and near plane; its pose is not looked at
+    Pose head_from_view;          ///< where it is drawn from
+    std::optional<Eye> for_eye;   ///< nothing: for whoever looks
+    double eye_distance_m = 0.0;  ///< from it to the farthest eye that is shown from it, besides what the head moves
 };
 
 /// The view of a display without stereo.
-[[nodiscard]] inline std::vector<DrawnView> single_view(const Camera& display) { return {{"main", display, {}, {}}}; }
+[[nodiscard]] inline std::vector<DrawnView> single_view(const Camera& display) {
+    return {{"main", display, {}, {}, 0.0}};
+}
 
 /// The views of a display with two eyes, each of the size of `display`. Pure, any thread.
 /// @return an error when the mode cannot serve the rig: no single picture holds both eyes' (one-render), or the eyes do

@@ -11,6 +11,7 @@
 #include "apps/latency_page.h"
 #include "apps/live_report.h"
 #include "tests/warp_server/simulated_display.h"
+#include "warp_server/frame_warper.h"
 #include "warp_server/server_loop.h"
 #include "warp_server/virtual_display.h"
 

@@ -25,16 +25,16 @@ ReplayResult made_up_result() {
         RefreshRecord record;
         record.refresh = 3 + i;
         record.photon_s = 0.14 + 0.04 * static_cast<double>(i);
-        record.errors = {{0.1 * static_cast<double>(i),
-                          0.9,
-                          i == 0 ? std::nullopt : std::optional<double>{30.0},
-                          0.25,
-                          {0.01, 0.02, 0.03, 0.04},
-                          i == 0 ? std::nullopt : std::optional<double>{0.125}},
-                         {0.5, 0.5, 20.0, 0.0, {0.5, 0.0, 0.0, 0.0}, std::nullopt}};
+        record.eyes.emplace_back().errors = {{0.1 * static_cast<double>(i),
+                                              0.9,
+                                              i == 0 ? std::nullopt : std::optional<double>{30.0},
+                                              0.25,
+                                              {0.01, 0.02, 0.03, 0.04},
+                                              i == 0 ? std::nullopt : std::optional<double>{0.125}},
+                                             {0.5, 0.5, 20.0, 0.0, {0.5, 0.0, 0.0, 0.0}, std::nullopt}};
         result.refreshes.push_back(record);
     }
-    result.costs.app_ms = {100.0, 50.0};
+    result.costs.app_ms = {{100.0, 50.0}, {100.0, 50.0}};
     result.costs.warp_ms = {{9.0, 2.0, 2.0}, {8.0, 4.0, 4.0}};
     result.costs.prepare_ms = {{}, {}};
     return result;
@@ -61,6 +61,45 @@ TEST(ReplayReport, HoldsTheKeysThatScriptsRead) {
     EXPECT_TRUE(json.at("cause_shares").at("out_of_frame").at("mean").is_number());
     EXPECT_EQ(json.at("cost_ms").at("warp").at("mean"), 2.0) << "the first is the warm-up";
     EXPECT_TRUE(json.at("cost_ms").at("prepare").is_null());
+}
+
+ReplayResult made_up_stereo_result() {
+    ReplayResult result = made_up_result();
+    for (RefreshRecord& record : result.refreshes) {
+        EyeRecord right = record.eyes.front();
+        right.errors[0].flip += 0.2;
+        record.eyes.push_back(right);
+        record.consistency = {EyeConsistency{0.01, 0.002, 0.03}, std::nullopt};
+    }
+    return result;
+}
+
+TEST(ReplayReport, PoolsBothEyesAndReportsEach) {
+    Report report{Subcommand::replay};
+    add_replay_results(report, made_up_stereo_result());
+    const auto json = nlohmann::json::parse(report.text());
+    EXPECT_EQ(json.at("frames"), 3);
+    EXPECT_NEAR(json.at("error").at("flip").at("mean").get<double>(), 0.2, 1e-12);
+    EXPECT_EQ(json.at("error").at("flip").at("max"), 0.4);
+    EXPECT_EQ(json.at("stereo").at("left").at("error").at("flip").at("max"), 0.2);
+    EXPECT_EQ(json.at("stereo").at("right").at("error").at("flip").at("min"), 0.2);
+    EXPECT_EQ(json.at("stereo").at("rivalry_fraction").at("mean"), 0.002);
+    EXPECT_EQ(json.at("stereo").at("vertical_disparity_px").at("p95"), 0.03);
+    EXPECT_EQ(json.at("stereo").at("colour_excess").at("p50"), 0.01);
+    const auto& baseline = json.at("baselines").at("points:size_px=2,x=1").at("stereo");
+    EXPECT_TRUE(baseline.at("rivalry_fraction").is_null());
+    EXPECT_EQ(baseline.at("left").at("error").at("ssim").at("mean"), 0.5);
+}
+
+TEST(ReplayReport, CsvHasOneRowPerDisplayFrameAndEye) {
+    const std::string csv = replay_csv(made_up_stereo_result());
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 7);
+    EXPECT_THAT(csv, HasSubstr(",frame_age_ms,eye,cause_shares"));
+    EXPECT_THAT(csv, HasSubstr(",splat.rivalry_fraction,splat.vertical_disparity_px,splat.colour_excess,"));
+    EXPECT_THAT(csv, HasSubstr(",0.002,0.03,0.01,"));
+    EXPECT_THAT(csv, HasSubstr(",right,"));
+    const std::string html = replay_html(made_up_stereo_result(), "a", "b", {});
+    EXPECT_THAT(html, HasSubstr("How well both eyes agree"));
 }
 
 TEST(ReplayReport, CsvHasOneRowPerDisplayFrame) {

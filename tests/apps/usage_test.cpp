@@ -45,6 +45,17 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"replay", "--trace", "walk", "--method", "fresh"},
         Arguments{"replay", "--trace", "walk", "--save-frames"},
         Arguments{"replay", "--trace", "walk", "--size", "8192x8192", "--truth-samples", "4"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "three"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--stereo", "magic"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--stereo-output", "hologram"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--ipd", "-1"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--eye-fov", "-45,45,-45"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--eye-fov", "45,-45,-45,45"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--eye-turn", "1,2,3,4"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--eye-turn", "60,0,0"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--stereo", "scanline", "--eye-turn", "0,0,2"},
+        Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--baseline", "scanline", "--eye-turn", "2,0,0"},
+        Arguments{"replay", "--trace", "walk", "--baseline", "two-renders"},
         Arguments{"render", "city", "--pose", "0,0,0,0,0,0,1"}, Arguments{"render", "city", "-o", ""},
         Arguments{"render", "-o", "x.png"}, Arguments{"render", "city", "-o", "x.png", "--pose", "0,0,0,0,0,0,0"},
         Arguments{"render", "city", "-o", "x.png", "--pose", "0,0,0,0,0,1"},
@@ -67,8 +78,7 @@ TEST_P(OptionToCome, IsAUsageError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CommandLine, OptionToCome,
-                         testing::Values("--shells", "--layers", "--strips", "--inject", "--load", "--eyes",
-                                         "--billboards"));
+                         testing::Values("--shells", "--layers", "--strips", "--inject", "--load", "--billboards"));
 
 TEST(Help, GoesToStandardOutputAndNamesWhatThereIs) {
     for (const char* subcommand :

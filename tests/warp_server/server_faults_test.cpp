@@ -7,6 +7,7 @@
 
 #include "frame_link/sampled_head_feed.h"
 #include "tests/warp_server/simulated_display.h"
+#include "warp_server/frame_warper.h"
 #include "warp_server/server_loop.h"
 #include "warp_server/virtual_display.h"
 

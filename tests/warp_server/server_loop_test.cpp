@@ -1,4 +1,5 @@
 #include "warp_server/server_loop.h"
+#include "warp_server/frame_warper.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 
 #include "tests/warp_server/simulated_display.h"
 #include "tests/warp_server/synthetic_layers.h"
+#include "warp_server/frame_warper.h"
 #include "warp_server/server_loop.h"
 #include "warp_server/virtual_display.h"
 

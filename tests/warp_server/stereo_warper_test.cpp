@@ -1,0 +1,135 @@
+#include "warp_server/stereo_warper.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "core/metrics.h"
+#include "tests/warp_server/analytic_scene.h"
+#include "tests/warp_server/image_assertions.h"
+#include "tests/warp_server/synthetic_layers.h"
+
+namespace lw::test {
+namespace {
+
+constexpr glm::ivec2 kSize_px{96, 96};
+
+StereoRig rig() { return mirrored_rig(0.063, street_camera(kSize_px).fov); }
+
+Camera eye_of(const Camera& head, Eye eye) { return eye_camera(head, rig().eye(eye), head.world_from_eye); }
+
+std::unique_ptr<StereoWarper> warper_for(StereoMode mode, std::string_view method = "surface",
+                                         StereoSettings settings = {.rig = rig()}) {
+    auto made = StereoWarper::create(method, "nearest-background", mode, street_camera(kSize_px), settings);
+    EXPECT_TRUE(made.ok());
+    return std::move(*made);
+}
+
+double psnr_of(const ColourImage& a, const ColourImage& b) { return psnr_db(a, b).value_or(99.0); }
+
+// What the client publishes for a head.
+RenderedFrame drawn(const AnalyticScene& scene, StereoMode mode, const Camera& head, const PictureMaker& maker) {
+    const auto views = stereo_views(street_camera(kSize_px), rig(), mode);
+    EXPECT_TRUE(views.ok());
+    RenderedFrame frame;
+    for (const DrawnView& view : *views) {
+        Camera camera = view.camera;
+        camera.world_from_eye = compose(head.world_from_eye, view.head_from_view);
+        auto layer = std::make_shared<Layer>(scene.draw(camera, 0.0));
+        layer->name = view.name;
+        layer->for_eye = view.for_eye;
+        maker.prepare(*layer);
+        frame.layers.push_back(std::move(layer));
+    }
+    return frame;
+}
+
+TEST(StereoWarper, TwoRendersOfAStillHeadAreShownBitForBit) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera head = street_camera(kSize_px);
+    const auto warper = warper_for(StereoMode::two_renders);
+    const auto movers = scene.movers(0.0);
+    warper->warp_eyes(drawn(scene, StereoMode::two_renders, head, *warper), {head, movers});
+    for (const Eye eye : kEyes) {
+        const Layer truth = scene.draw(eye_of(head, eye), 0.0);
+        EXPECT_TRUE(warper->eye(eye).display_frame().colour == truth.cpu().colour) << name_of(eye);
+    }
+}
+
+TEST(StereoWarper, OneRenderShowsEachEyeItsOwnView) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera head = moved(street_camera(kSize_px), {0.3, 0.0, -0.2}, 10.0, -5.0, 3.0);
+    const auto warper = warper_for(StereoMode::one_render);
+    const auto movers = scene.movers(0.0);
+    warper->warp_eyes(drawn(scene, StereoMode::one_render, head, *warper), {head, movers});
+    const auto right_than_wrong = [&](Eye shown, Eye other) {
+        const ColourImage& picture = warper->eye(shown).display_frame().colour;
+        const double own_db = psnr_of(picture, scene.truth(eye_of(head, shown), 0.0));
+        const double other_db = psnr_of(picture, scene.truth(eye_of(head, other), 0.0));
+        return own_db - other_db;
+    };
+    // The eyes' pictures differ by 20 px of parallax on the nearest things: the wrong one is far off.
+    EXPECT_GT(right_than_wrong(Eye::left, Eye::right), 3.0);
+    EXPECT_GT(right_than_wrong(Eye::right, Eye::left), 3.0);
+}
+
+TEST(StereoWarper, BothEyesOnTheirOwnThreadsShowTheSame) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera head = street_camera(kSize_px);
+    const Camera now = moved(head, {0.05, 0.01, 0.0}, 2.0);
+    const auto one_by_one = warper_for(StereoMode::one_render);
+    const auto at_once = warper_for(StereoMode::one_render, "surface", {.rig = rig(), .parallel = true});
+    const RenderedFrame frame = drawn(scene, StereoMode::one_render, head, *one_by_one);
+    const auto movers = scene.movers(0.1);
+    const ColourImage expected = one_by_one->warp(frame, {now, movers}).colour;
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(at_once->warp(frame, {now, movers}).colour == expected);
+}
+
+TEST(StereoWarper, PacksBothEyes) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera head = street_camera(kSize_px);
+    for (const std::string_view name : eye_layout_names()) {
+        const EyeLayout layout = *find_eye_layout(name);
+        const auto warper = warper_for(StereoMode::two_renders, "splat", {.rig = rig(), .layout = layout});
+        const ColourImage& packed =
+            warper->warp(drawn(scene, StereoMode::two_renders, head, *warper), {head, {}}).colour;
+        ColourImage expected;
+        pack_eyes(layout, warper->eye(Eye::left).display_frame().colour, warper->eye(Eye::right).display_frame().colour,
+                  expected);
+        EXPECT_TRUE(packed == expected) << name;
+    }
+}
+
+TEST(StereoWarper, ScanlineShowsTheRightEyeAsDrawnAndTheLeftShifted) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera head = street_camera(kSize_px);
+    const auto warper = warper_for(StereoMode::scanline);
+    warper->warp_eyes(drawn(scene, StereoMode::scanline, head, *warper), {moved(head, {0.1, 0.0, 0.0}, 3.0), {}});
+    const Layer right = scene.draw(eye_of(head, Eye::right), 0.0);
+    EXPECT_TRUE(warper->eye(Eye::right).display_frame().colour == right.cpu().colour) << "the head is not followed";
+    const double left_db =
+        psnr_of(warper->eye(Eye::left).display_frame().colour, scene.draw(eye_of(head, Eye::left), 0.0).cpu().colour);
+    const double unshifted_db = psnr_of(right.cpu().colour, scene.draw(eye_of(head, Eye::left), 0.0).cpu().colour);
+    EXPECT_GT(left_db, unshifted_db + 2.0);
+}
+
+TEST(StereoWarper, ScanlineIsRefusedForTurnedEyes) {
+    const StereoRig turned =
+        mirrored_rig(0.063, street_camera(kSize_px).fov, glm::angleAxis(0.1, glm::dvec3{0.0, 1.0, 0.0}));
+    const auto made =
+        StereoWarper::create("surface", "none", StereoMode::scanline, street_camera(kSize_px), {.rig = turned});
+    EXPECT_FALSE(made.ok());
+}
+
+TEST(StereoWarper, PixelsThatCouldNotBeUsedAreCountedForBothEyes) {
+    const Camera head = street_camera(kSize_px);
+    const auto warper = warper_for(StereoMode::one_render, "splat");
+    auto layer = std::make_shared<Layer>(indexed_layer(head, 0.01F));
+    layer->cpu().depth.at(3, 3) = -1.0F;
+    RenderedFrame frame;
+    frame.layers.push_back(std::move(layer));
+    warper->warp_eyes(frame, {head, {}});
+    EXPECT_EQ(warper->counters().bad_depth, 2U);
+}
+
+}  // namespace
+}  // namespace lw::test

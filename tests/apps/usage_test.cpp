@@ -78,7 +78,7 @@ TEST_P(OptionToCome, IsAUsageError) {
 }
 
 INSTANTIATE_TEST_SUITE_P(CommandLine, OptionToCome,
-                         testing::Values("--shells", "--layers", "--strips", "--inject", "--load", "--billboards"));
+                         testing::Values("--shells", "--strips", "--inject", "--load", "--billboards"));
 
 TEST(Help, GoesToStandardOutputAndNamesWhatThereIs) {
     for (const char* subcommand :

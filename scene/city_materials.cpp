@@ -3,21 +3,14 @@
 #include <array>
 
 #include "scene/city_textures.h"
+#include "scene/material_recipe.h"
 
 namespace lw::scene {
 
 namespace {
 
-struct Recipe {
-    const char* name;
-    double texture_size_m;  ///< 0: no texture
-    ColourImage (*texture)();
-    float roughness;
-    float metallic;
-};
-
 // In the order of CityMaterial.
-constexpr std::array<Recipe, kCityMaterialCount> kRecipes{{
+constexpr std::array<MaterialRecipe, kCityMaterialCount> kRecipes{{
     {"plaster", 3.2, plaster_texture, 0.92f, 0.0f},
     {"brick", 1.92, brick_texture, 0.9f, 0.0f},
     {"stone", 1.5, stone_texture, 0.85f, 0.0f},
@@ -41,23 +34,10 @@ constexpr std::array<Recipe, kCityMaterialCount> kRecipes{{
 
 }  // namespace
 
-double texture_size_m(CityMaterial material) {
-    const double size = kRecipes[material].texture_size_m;
-    return size > 0.0 ? size : 1.0;
-}
+double texture_size_m(CityMaterial material) { return texture_size_m(kRecipes[material]); }
 
 void add_city_materials(Scene& scene) {
-    for (const Recipe& recipe : kRecipes) {
-        Material material;
-        material.name = recipe.name;
-        material.roughness = recipe.roughness;
-        material.metallic = recipe.metallic;
-        if (recipe.texture != nullptr) {
-            material.base_colour_texture.image = static_cast<int>(scene.images.size());
-            scene.images.push_back({recipe.name, recipe.texture()});
-        }
-        scene.materials.push_back(std::move(material));
-    }
+    add_materials(scene, kRecipes);
     scene.materials[kLeaf].double_sided = true;
     scene.materials[kLamp].emissive = {0.9f, 0.75f, 0.45f};
 }

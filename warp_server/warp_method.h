@@ -89,6 +89,19 @@ public:
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
 
 protected:
+    /// What prepare() returned for `layer`; made here and kept by `own` when the layer was not prepared for this
+    /// method.
+    template <class Prepared>
+    [[nodiscard]] const Prepared& prepared_or_made(const Layer& layer,
+                                                   std::shared_ptr<const PreparedLayer>& own) const {
+        const PreparedLayer* prepared = layer.prepared_for(label());
+        if (prepared == nullptr) {
+            own = prepare(layer);
+            prepared = own.get();
+        }
+        return static_cast<const Prepared&>(*prepared);
+    }
+
     WarpCounters counters_;
 };
 

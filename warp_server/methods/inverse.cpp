@@ -36,12 +36,7 @@ public:
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         std::shared_ptr<const PreparedLayer> own;
-        const PreparedLayer* known = layer.prepared_for(label_);
-        if (known == nullptr) {
-            own = prepare(layer);
-            known = own.get();
-        }
-        const auto& prepared = static_cast<const PreparedInverse&>(*known);
+        const auto& prepared = prepared_or_made<PreparedInverse>(layer, own);
         matrices_.build(layer, target);
         counters_ = bad_pixels(prepared.id_counts, matrices_);
         out.resize(target.camera.size_px);

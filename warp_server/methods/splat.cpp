@@ -30,13 +30,8 @@ public:
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         const CpuPixels& pixels = checked_cpu_pixels(layer);
-        const PreparedLayer* prepared = layer.prepared_for(label_);
         std::shared_ptr<const PreparedLayer> own;
-        if (prepared == nullptr) {
-            own = prepare(layer);
-            prepared = own.get();
-        }
-        const auto& tiles = static_cast<const SplatTiles&>(*prepared);
+        const auto& tiles = prepared_or_made<SplatTiles>(layer, own);
         matrices_.build(layer, target);
         reach_.build(tiles, matrices_, target.camera.size_px);
         out.resize(target.camera.size_px);

@@ -88,12 +88,7 @@ public:
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         const CpuPixels& pixels = checked_cpu_pixels(layer);
         std::shared_ptr<const PreparedLayer> own;
-        const PreparedLayer* prepared = layer.prepared_for(label_);
-        if (prepared == nullptr) {
-            own = prepare(layer);
-            prepared = own.get();
-        }
-        input_ = {static_cast<const PreparedSurface*>(prepared), &matrices_};
+        input_ = {&prepared_or_made<PreparedSurface>(layer, own), &matrices_};
         matrices_.build(layer, target);
         counters_ = bad_pixels(input_.prepared->id_counts, matrices_);
         out.resize(target.camera.size_px);

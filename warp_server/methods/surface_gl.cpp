@@ -140,12 +140,7 @@ public:
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         std::shared_ptr<const PreparedLayer> own;
-        const PreparedLayer* known = layer.prepared_for(label_);
-        if (known == nullptr) {
-            own = prepare(layer);
-            known = own.get();
-        }
-        const auto& prepared = static_cast<const PreparedGlSurface&>(*known);
+        const auto& prepared = prepared_or_made<PreparedGlSurface>(layer, own);
         source_.bind(layer, target);
         counters_ = bad_pixels(prepared.id_counts, source_.matrices());
         upload(prepared);

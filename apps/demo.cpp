@@ -22,6 +22,22 @@ Status write_strip(const Options& options, const LiveResult& result, SceneRender
     return write_png(options.out / "strip.png", *strip);
 }
 
+/// What each eye saw last, as --stereo-output wants it.
+Status write_eyes(const Options& options, const LiveResult& result) {
+    if (result.last_eyes.empty()) return Done{};
+    if (options.stereo.layout != EyeLayout::files) {
+        ColourImage both;
+        pack_eyes(options.stereo.layout, result.last_eyes[0], result.last_eyes[1], both);
+        return write_png(options.out / "eyes.png", both);
+    }
+    Status written{Done{}};
+    for (const Eye eye : kEyes) {
+        const ColourImage& picture = result.last_eyes[static_cast<std::size_t>(eye)];
+        if (written) written = write_png(options.out / fmt::format("eyes.{}.png", name_of(eye)), picture);
+    }
+    return written;
+}
+
 }  // namespace
 
 Status run_demo(const Options& given) {
@@ -56,6 +72,7 @@ Status run_demo(const Options& given) {
     describe_settings(report, options);
     describe_live_run(report, options, *result);
     if (const Status csv = write_text(options.out / "refreshes.csv", refreshes_csv(*result)); !csv) return csv;
+    if (const Status eyes = write_eyes(options, *result); !eyes) return eyes;
     if (const Status written = report.write(options.report); !written) return written;
     if (!options.quiet) {
         std::fprintf(stderr, "%swrote    %s, %s\n", live_summary_text(options, *result).c_str(), options.report.c_str(),

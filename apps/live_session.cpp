@@ -1,5 +1,6 @@
 #include "apps/live_session.h"
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <future>
@@ -21,6 +22,7 @@
 #include "warp_server/frame_warper.h"
 #include "warp_server/methods/registry.h"
 #include "warp_server/server_loop.h"
+#include "warp_server/stereo_warper.h"
 #include "warp_server/virtual_display.h"
 
 namespace lw {
@@ -67,6 +69,7 @@ private:
     void watch();
     void update_movers();
     void follow_keys();
+    void show_next_layout();
     void show_overlay(TimePoint now);
     void note_record(const DisplayRecord& record);
     [[nodiscard]] bool is_over(TimePoint& end) const;
@@ -77,6 +80,12 @@ private:
     void server_thread();
     Status prepare_server(std::unique_ptr<gl::Context>& context);
     Status make_warper();
+    Status make_mono_warper();
+    [[nodiscard]] Result<FrameWarper> make_demo_warper();
+    Status make_stereo_warper();
+    [[nodiscard]] glm::ivec2 picture_px() const {
+        return options_.stereo.on ? packed_size_px(options_.stereo.layout, options_.size_px) : options_.size_px;
+    }
     void raise_priority();
     void watch_photons();
     [[nodiscard]] bool has_photon_codes() const {
@@ -116,10 +125,12 @@ private:
     std::vector<ObjectTransform> mover_update_;
     std::unique_ptr<FrameExchange> exchange_ = std::make_unique<FrameExchange>();
     std::unique_ptr<FrameExchange> before_delay_ = std::make_unique<FrameExchange>();
-    std::optional<FrameWarper> warper_;
+    std::unique_ptr<PictureMaker> warper_;
+    StereoWarper* stereo_ = nullptr;  ///< the warper, where there are two eyes
     std::unique_ptr<HeadPosePredictor> server_predictor_;
     std::unique_ptr<HeadPosePredictor> client_predictor_;
     bool textures_ = false;
+    std::vector<DrawnView> views_;
     const gl::Context* client_context_ = nullptr;
 
     // The demo's window only.
@@ -137,6 +148,7 @@ private:
     TimePoint rate_counted_at_;
     double rate_counted_ = 0.0;
     double app_hz_ = 0.0;
+    std::size_t layout_ = 0;  ///< which the key chose last
 
     bool realtime_allowed_ = false;
     Phases client_;
@@ -205,7 +217,7 @@ Status LiveSession::open_window() {
         return Error{"the oracle cannot foresee a viewer's hands", "--predict oracle",
                      "unset DISPLAY, or choose another predictor"};
     }
-    auto window = WindowPresenter::create("Latewarp: " + scene_.name, options_.size_px, options_.display_hz);
+    auto window = WindowPresenter::create("Latewarp: " + scene_.name, picture_px(), options_.display_hz);
     if (!window) return window.error();
     window_ = std::move(window).value();
     clip_ = std::make_unique<ClipRecorder>(options_.out / "clip");
@@ -255,6 +267,7 @@ void LiveSession::follow_keys() {
         if (key == 'F') controls_.renderer_frozen = !controls_.renderer_frozen;
         if (key == 'O') controls_.overlay_shown = !controls_.overlay_shown;
         if (key == 'R') controls_.recording = !controls_.recording;
+        if (key == 'T') show_next_layout();
         const std::size_t rate = controls_.app_rate;
         if (key == '+') controls_.app_rate = std::min(rate + 1, DemoControls::kAppRates_hz.size() - 1);
         if (key == '-') controls_.app_rate = rate == 0 ? 0 : rate - 1;
@@ -266,6 +279,14 @@ void LiveSession::follow_keys() {
     client->set_frozen(controls_.renderer_frozen);
     if (keys.find_first_of("+-") != std::string::npos)
         client->set_max_hz(DemoControls::kAppRates_hz[controls_.app_rate]);
+}
+
+// Pictures of another size than the window's are stretched to it.
+void LiveSession::show_next_layout() {
+    if (stereo_ == nullptr) return;
+    constexpr std::array kLayouts{EyeLayout::side_by_side, EyeLayout::top_bottom, EyeLayout::anaglyph};
+    layout_ = (layout_ + 1) % kLayouts.size();
+    stereo_->set_layout(kLayouts[layout_]);
 }
 
 void LiveSession::show_overlay(TimePoint now) {
@@ -280,7 +301,7 @@ void LiveSession::show_overlay(TimePoint now) {
         fmt::format(
             "M METHOD: {}   F {}   +/- CLIENT: {}   H HOLES{}", method, controls_.renderer_frozen ? "FROZEN" : "FREEZE",
             rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED", controls_.holes_shown ? ": SHOWN" : ""),
-        fmt::format("DRAG LOOK   W A S D E C MOVE   O OVERLAY   R {}   Q QUIT",
+        fmt::format("DRAG LOOK   W A S D E C MOVE   {}O OVERLAY   R {}   Q QUIT", stereo_ != nullptr ? "T EYES   " : "",
                     controls_.recording ? fmt::format("RECORDING {}", clip_->written()) : "RECORD")};
     std::vector<OverlayPanel> panels;
     ColourImage text = text_panel(help, options_.size_px.x, scale);
@@ -361,11 +382,16 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     if (textures_ && options_.inject.app_ms) {
         return Error{"frames in textures cannot be delayed", "--inject app", "choose a CPU --method"};
     }
+    if (auto views = drawn_views_of(options_, &trace_)) {
+        views_ = *std::move(views);
+    } else {
+        return views.error();
+    }
     if (textures_ && options_.source.layers > 1) {
         return Error{"a hidden layer cannot be handed over in textures yet", "--layers 2", "choose a CPU --method"};
     }
     // The driver compiles at the first draw; that is no frame of the run.
-    Camera camera = options_.camera();
+    Camera camera = views_.front().camera;
     camera.world_from_eye = trace_.at(0.0);
     CpuPixels pixels;
     renderer->use_billboards(true);
@@ -382,6 +408,7 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
 void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     ClientSettings settings;
     settings.camera = options_.camera();
+    settings.views = views_;
     settings.max_hz = options_.app_hz.value_or(0.0);
     if (options_.inject.any()) settings.max_hz = hz_between_refreshes(settings.max_hz, options_.display_hz);
     settings.predict_source_pose = options_.source_pose == SourcePose::predicted;
@@ -393,7 +420,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     settings.reveal_margin_m = options_.reveal_margin_m;
     settings.min_pixels = options_.culling.min_pixels;
     const auto prepare = [this](Layer& layer) {
-        if (layer.name == "main") result_.source_views.push_back({layer.camera, layer.scene_time_s});
+        if (layer.name == views_.front().name) result_.source_views.push_back({layer.camera, layer.scene_time_s});
         warper_->prepare(layer);
     };
     client_loop_.emplace(renderer, clock_, head(), client_exchange(), std::move(client_predictor_), prepare, settings);
@@ -434,7 +461,7 @@ Status LiveSession::prepare_server(std::unique_ptr<gl::Context>& context) {
     if (window_ != nullptr) {
         window_->attach(clock_.now());
     } else {
-        virtual_display_.emplace(clock_.now(), options_.display_hz, options_.size_px);
+        virtual_display_.emplace(clock_.now(), options_.display_hz, picture_px());
         if (has_photon_codes()) watch_photons();
     }
     if (entry_.needs_gl) raise_priority();
@@ -442,19 +469,44 @@ Status LiveSession::prepare_server(std::unique_ptr<gl::Context>& context) {
     return Done{};
 }
 
-Status LiveSession::make_warper() {
-    if (window_ == nullptr || entry_.needs_gl) {
-        auto warper = FrameWarper::create(options_.method, options_.fill);
-        if (!warper) return warper.error();
-        warper_ = std::move(warper).value();
-        return Done{};
-    }
+Status LiveSession::make_warper() { return options_.stereo.on ? make_stereo_warper() : make_mono_warper(); }
+
+Status LiveSession::make_mono_warper() {
+    const bool plain = window_ == nullptr || entry_.needs_gl;
+    auto warper = plain ? FrameWarper::create(options_.method, options_.fill) : make_demo_warper();
+    if (!warper) return warper.error();
+    warper_ = std::make_unique<FrameWarper>(*std::move(warper));
+    return Done{};
+}
+
+// Its method and what it shows in holes follow the keys.
+Result<FrameWarper> LiveSession::make_demo_warper() {
     auto method = make_demo_method(options_.method, controls_);
     if (!method) return method.error();
     auto fill = make_fill(options_.fill);
     if (!fill) return fill.error();
     demo_method_ = method->get();
-    warper_.emplace(std::move(*method), make_demo_fill(std::move(*fill), controls_));
+    return FrameWarper{std::move(*method), make_demo_fill(std::move(*fill), controls_)};
+}
+
+Status LiveSession::make_stereo_warper() {
+    StereoSettings settings{stereo_rig_of(options_, &trace_), options_.stereo.layout, !entry_.needs_gl};
+    const bool plain = window_ == nullptr || entry_.needs_gl || options_.stereo.mode == StereoMode::scanline;
+    std::unique_ptr<StereoWarper> made;
+    if (plain) {
+        auto warper =
+            StereoWarper::create(options_.method, options_.fill, options_.stereo.mode, options_.camera(), settings);
+        if (!warper) return warper.error();
+        made = std::move(*warper);
+    } else {
+        auto left = make_demo_warper();
+        if (!left) return left.error();
+        auto right = make_demo_warper();
+        if (!right) return right.error();
+        made = std::make_unique<StereoWarper>(*std::move(left), *std::move(right), settings);
+    }
+    stereo_ = made.get();
+    warper_ = std::move(made);
     return Done{};
 }
 
@@ -499,6 +551,8 @@ void LiveSession::show_until_stopped() {
     result_.bad_placements = server_loop_->held().bad_placement;
     result_.bad_layers = server_loop_->held().bad_layer;
     result_.display_camera = settings.camera;
+    if (stereo_ == nullptr) return;
+    for (const Eye eye : kEyes) result_.last_eyes.push_back(stereo_->eye(eye).display_frame().colour);
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ struct LiveResult {
     std::uint64_t bad_placements = 0;  ///< of movers, over all pictures
     std::uint64_t bad_layers = 0;
     Scheduling scheduling = Scheduling::none;
-    Camera display_camera;  ///< its pose is that of the last picture
+    Camera display_camera;               ///< its pose is that of the last picture
+    std::vector<ColourImage> last_eyes;  ///< left and right of the last picture; empty with one eye
     bool in_window = false;
     bool interrupted = false;
 };

@@ -224,6 +224,7 @@ void declare_live(Declarer declare) {
     declare_layers(declare);
     declare_skip(declare);
     declare_billboards(declare);
+    declare_stereo(declare);
     declare_method(declare);
     declare_timing(declare);
     declare_strips_and_load(declare);

@@ -71,8 +71,7 @@ public:
         // The server keeps the time; a swap that waits for the screen would make every next latch late.
         glfwSwapInterval(0);
         timing_.emplace(start, hz_, glm::ivec2{1, 1});
-        texture_ = gl::Texture{size_px_, GL_RGBA8};
-        framebuffer_ = *gl::Framebuffer::create({&texture_}, nullptr);
+        make_texture(size_px_);
     }
     void detach() override {
         framebuffer_ = {};
@@ -83,7 +82,7 @@ public:
     [[nodiscard]] Refresh next_refresh(TimePoint now) const override { return timing_->next_refresh(now); }
 
     void present(const DisplayFrame& frame, const Refresh& refresh) override {
-        LW_CHECK(frame.colour.size_px() == size_px_, "a window shows pictures of one size");
+        if (frame.colour.size_px() != size_px_) make_texture(frame.colour.size_px());
         texture_.upload(GL_RGBA, GL_UNSIGNED_BYTE, frame.colour.pixels().data());
         if (on_picture) on_picture(frame.colour, refresh);
         show_texture();
@@ -99,6 +98,12 @@ public:
     [[nodiscard]] bool closed() const override { return closed_.load(std::memory_order_relaxed); }
 
 private:
+    void make_texture(glm::ivec2 size_px) {
+        size_px_ = size_px;
+        texture_ = gl::Texture{size_px_, GL_RGBA8};
+        framebuffer_ = *gl::Framebuffer::create({&texture_}, nullptr);
+    }
+
     void note_key(int key) {
         if (key == GLFW_KEY_KP_ADD || key == GLFW_KEY_EQUAL) key = '+';
         if (key == GLFW_KEY_KP_SUBTRACT) key = '-';

@@ -15,7 +15,7 @@
 namespace lw {
 
 /// A window with a GL context of its own. The main thread makes it, asks it for input and destroys it; the server's
-/// thread presents. The picture is stretched to the window.
+/// thread presents. The picture is stretched to the window; its size may change from one to the next.
 ///
 /// Its refreshes are those of a clock at `hz`: a window system does not tell when it scans out, so latencies are
 /// counted to the moment the picture is handed to it.

@@ -31,8 +31,11 @@ ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed
       predictor_{std::move(predictor)},
       prepare_{std::move(prepare)},
       settings_{std::move(settings)},
-      cameras_{settings_.camera, settings_.source},
       max_hz_{settings_.max_hz} {
+    if (settings_.views.empty()) settings_.views = single_view(settings_.camera);
+    for (const DrawnView& view : settings_.views) {
+        views_.push_back({view, SourceCameras{view.camera, settings_.source}});
+    }
     LW_CHECK(predictor_ != nullptr, "a client without a predictor");
     records_.reserve(4096);  // minutes of frames: growing would cost a frame now and then
 }
@@ -63,51 +66,65 @@ void ClientLoop::draw_until_stopped() {
     }
 }
 
+void ClientLoop::draw_view(View& view, const FrameTimes& times, std::vector<std::shared_ptr<Layer>>& layers) {
+    auto layer = layers_.acquire();
+    layer->name = view.drawn.name;
+    layer->for_eye = view.drawn.for_eye;
+    // A frame is shown until one period after it was published.
+    layer->camera = view.cameras.next(head_, times.sampled, latency_ + period_);
+    layer->camera.world_from_eye = compose(times.head.world_from_head, view.drawn.head_from_view);
+    layer->pose_sampled = times.head.newest_sample;
+    layer->scene_time_s = seconds_of(times.target);
+    renderer_.set_reveal_margin(eye_motion_m(view, times));
+    const int samples = settings_.source.samples_per_axis;
+    if (settings_.textures) {
+        layer->pixels = renderer_.draw_to_textures(layer->camera, layer->scene_time_s, samples);
+    } else {
+        renderer_.draw_resolved(layer->camera, layer->scene_time_s, samples, layer->cpu());
+    }
+    renderer_.mover_placements(layer->scene_time_s, layer->movers);
+    layers.push_back(std::move(layer));
+}
+
+void ClientLoop::draw_hidden(const View& view, const FrameTimes& times, std::vector<std::shared_ptr<Layer>>& layers) {
+    auto hidden = layers_.acquire();
+    draw_hidden_layer(renderer_, *layers.back(), settings_.source.samples_per_axis, eye_motion_m(view, times), *hidden);
+    hidden->for_eye = view.drawn.for_eye;
+    layers.push_back(std::move(hidden));
+}
+
+// How far the eyes that look at the frame come from where it was drawn: with the head, and by their place in it.
+double ClientLoop::eye_motion_m(const View& view, const FrameTimes& times) {
+    const TimePoint shown_from = times.sampled + latency_;
+    return view.drawn.eye_distance_m + reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, times.sampled,
+                                                       times.head.world_from_head, shown_from, shown_from + period_);
+}
+
 void ClientLoop::draw_and_publish() {
     const TimePoint sampled = clock_.now();
     const TimePoint target = settings_.predict_source_pose ? middle_of_display_life(sampled) : sampled;
-    const PredictedPose head = predictor_->predict(head_, sampled, target);
-
-    auto layer = layers_.acquire();
-    // A frame is shown until one period after it was published.
-    layer->camera = cameras_.next(head_, sampled, latency_ + period_);
-    layer->camera.world_from_eye = head.world_from_head;
-    layer->pose_sampled = head.newest_sample;
-    layer->scene_time_s = seconds_of(target);
-    const TimePoint shown_from = sampled + latency_;
-    const double head_motion_m = reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled,
-                                                 head.world_from_head, shown_from, shown_from + period_);
-    renderer_.set_reveal_margin(head_motion_m);
-
+    const FrameTimes times{sampled, target, predictor_->predict(head_, sampled, target)};
     if (settings_.min_pixels > 0.0) {
-        renderer_.set_viewer_moves(viewer_moves(*predictor_, head_, sampled, shown_from + period_));
+        renderer_.set_viewer_moves(viewer_moves(*predictor_, head_, sampled, sampled + latency_ + period_));
     }
 
     ClientFrameRecord record;
     record.index = records_.size() + 1;
-    record.times.pose_sampled = head.newest_sample;
+    record.times.pose_sampled = times.head.newest_sample;
     record.times.render_begin = clock_.now();
-    if (settings_.textures) {
-        layer->pixels =
-            renderer_.draw_to_textures(layer->camera, layer->scene_time_s, settings_.source.samples_per_axis);
-    } else {
-        renderer_.draw_resolved(layer->camera, layer->scene_time_s, settings_.source.samples_per_axis, layer->cpu());
-    }
-    record.counters = renderer_.counters();
-    renderer_.mover_placements(layer->scene_time_s, layer->movers);
-    std::shared_ptr<Layer> hidden;
-    if (settings_.source.layers == 2) {
-        hidden = layers_.acquire();
-        draw_hidden_layer(renderer_, *layer, settings_.source.samples_per_axis, head_motion_m, *hidden);
+    std::vector<std::shared_ptr<Layer>> layers;
+    for (View& view : views_) {
+        draw_view(view, times, layers);
+        record.counters = renderer_.counters();
+        if (settings_.source.layers == 2) draw_hidden(view, times, layers);
     }
     record.times.render_end = clock_.now();
 
     auto frame = std::make_shared<RenderedFrame>();
     frame->index = record.index;
-    for (std::shared_ptr<Layer>* drawn : {&layer, &hidden}) {
-        if (*drawn == nullptr) continue;
-        if (prepare_) prepare_(**drawn);
-        frame->layers.push_back(std::move(*drawn));
+    for (std::shared_ptr<Layer>& layer : layers) {
+        if (prepare_) prepare_(*layer);
+        frame->layers.push_back(std::move(layer));
     }
     record.times.published = clock_.now();
     frame->times = record.times;

@@ -13,14 +13,16 @@
 #include "client_renderer/scene_renderer.h"
 #include "client_renderer/source_camera.h"
 #include "core/clock.h"
+#include "frame_link/drawn_view.h"
 #include "frame_link/frame_exchange.h"
 #include "frame_link/prediction.h"
 
 namespace lw {
 
 struct ClientSettings {
-    Camera camera;          ///< the display's size, field of view and near plane; its pose is ignored
-    SourceSettings source;  ///< what is drawn for it
+    Camera camera;                 ///< the display's size, field of view and near plane; its pose is ignored
+    std::vector<DrawnView> views;  ///< what is drawn for two eyes; empty: one view of `camera`
+    SourceSettings source;         ///< what is drawn for it
     std::optional<double> reveal_margin_m = 0.0;  ///< --reveal-margin, metres; nothing: as the head moves
     double min_pixels = 0.0;                      ///< --min-pixels, to tell the renderer whether the viewer moves
     double max_hz = 0.0;                          ///< 0: as fast as it can
@@ -72,7 +74,21 @@ public:
     [[nodiscard]] const std::vector<ClientFrameRecord>& records() const { return records_; }
 
 private:
+    struct View {
+        DrawnView drawn;
+        SourceCameras cameras;
+    };
+    /// What all views of one frame have in common.
+    struct FrameTimes {
+        TimePoint sampled;
+        TimePoint target;  ///< what it is drawn for
+        PredictedPose head;
+    };
+
     void draw_until_stopped();
+    void draw_view(View& view, const FrameTimes& times, std::vector<std::shared_ptr<Layer>>& layers);
+    void draw_hidden(const View& view, const FrameTimes& times, std::vector<std::shared_ptr<Layer>>& layers);
+    [[nodiscard]] double eye_motion_m(const View& view, const FrameTimes& times);
     [[nodiscard]] TimePoint middle_of_display_life(TimePoint sampled) const;
     void learn_timing(TimePoint sampled, TimePoint published);
 
@@ -83,7 +99,7 @@ private:
     std::unique_ptr<HeadPosePredictor> predictor_;
     PrepareLayer prepare_;
     ClientSettings settings_;
-    SourceCameras cameras_;
+    std::vector<View> views_;
     LayerPool layers_;
     std::atomic<bool> stop_{false};
     std::atomic<bool> frozen_{false};

@@ -98,6 +98,19 @@ TEST_F(StereoCommands, EyesThatAreTurnedAreServedByOneRender) {
     EXPECT_LT(mean_of(report.at("stereo"), "rivalry_fraction"), 0.1);
 }
 
+TEST_F(StereoCommands, TheDemoLeavesWhatBothEyesSaw) {
+    const auto folder = fresh_folder("stereo-demo");
+    const ProgramRun run = run_latewarp({"demo", "city", "--param", "buildings=6", "--size", "96x64", "--eyes",
+                                         "stereo", "--stereo-output", "files", "--seconds", "0.3", "--app-hz", "20",
+                                         "--out", folder.string(), "--quiet"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    for (const char* name : {"eyes.left.png", "eyes.right.png"}) {
+        const auto picture = read_png(folder / name);
+        ASSERT_TRUE(picture) << name;
+        EXPECT_EQ(picture->size_px(), glm::ivec2(96, 64));
+    }
+}
+
 TEST_F(StereoCommands, DataARecordedHeadsetGivesItsFieldsOfView) {
     const std::string trace = (shared_data_dir() / "head_traces/eyenavgs_rutgers/user103_train.csv").string();
     const auto folder = fresh_folder("stereo-recorded");

@@ -117,6 +117,27 @@ TEST_F(ClientLoopTest, PublishesACompleteFrame) {
     EXPECT_EQ(loop->records()[0].counters.objects_drawn, 5U);
 }
 
+TEST_F(ClientLoopTest, ViewsOfBothEyesAreDrawnFromOneHeadPose) {
+    Camera display;
+    display.size_px = {8, 4};
+    const StereoRig rig = mirrored_rig(0.06, FovTangents{});
+    ClientSettings settings;
+    settings.views = *stereo_views(display, rig, StereoMode::two_renders);
+    auto loop = make(settings);
+    for (int i = 0; i < 3; ++i) loop->draw_and_publish();
+    const RenderedFrame* frame = exchange_.latest();
+    ASSERT_EQ(frame->layers.size(), 2U);
+    const Layer& left = *frame->layers[0];
+    const Layer& right = *frame->layers[1];
+    EXPECT_EQ(left.for_eye, Eye::left);
+    EXPECT_EQ(right.for_eye, Eye::right);
+    // The head moves at 1 m/s while the left eye is drawn; both eyes are where they were for one of its poses.
+    const glm::dvec3 between = right.camera.world_from_eye.position_m - left.camera.world_from_eye.position_m;
+    EXPECT_NEAR(between.x, 0.06, 1e-12);
+    EXPECT_EQ(left.pose_sampled, right.pose_sampled);
+    EXPECT_EQ(left.scene_time_s, right.scene_time_s);
+}
+
 TEST_F(ClientLoopTest, DrawsForTheMiddleOfTheFramesDisplayLife) {
     auto loop = make({});
     for (int i = 0; i < 12; ++i) loop->draw_and_publish();

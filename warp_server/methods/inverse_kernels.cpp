@@ -61,23 +61,17 @@ private:
         VF source_y = within(active, hn::Div(begin(1), begin_w), limit_y);
         const VF zero = hn::Zero(DF{});
         Landed landed{zero, zero, zero};
-        VF error2 = zero;
-        Lanes moving = active;
-        for (int step = 0; step <= input_.steps; ++step) {
-            Landed now{zero, zero, zero};
-            const Lanes valid = place(moving, source_x, source_y, now);
-            active = hn::And(active, hn::Or(valid, hn::Not(moving)));
-            moving = hn::And(moving, valid);
-            const VF error_x = hn::Sub(pixel_x, now.x);
-            const VF error_y = hn::Sub(pixel_y, now.y);
-            const VF squared = hn::Add(hn::Mul(error_x, error_x), hn::Mul(error_y, error_y));
-            error2 = hn::IfThenElse(moving, squared, error2);
-            landed.depth = hn::IfThenElse(moving, now.depth, landed.depth);
-            moving = hn::And(moving, hn::Gt(error2, hn::Set(DF{}, kCloseEnoughPx * kCloseEnoughPx)));
-            if (step == input_.steps || hn::AllFalse(DF{}, moving)) break;
-            source_x = hn::IfThenElse(moving, within(moving, hn::Add(source_x, error_x), limit_x), source_x);
-            source_y = hn::IfThenElse(moving, within(moving, hn::Add(source_y, error_y), limit_y), source_y);
+        VF error_x = zero;
+        VF error_y = zero;
+        for (int step = 0;; ++step) {
+            active = place(active, source_x, source_y, landed);
+            error_x = hn::Sub(pixel_x, landed.x);
+            error_y = hn::Sub(pixel_y, landed.y);
+            if (step == input_.steps || hn::AllFalse(DF{}, active)) break;
+            source_x = within(active, hn::Add(source_x, error_x), limit_x);
+            source_y = within(active, hn::Add(source_y, error_y), limit_y);
         }
+        const VF error2 = hn::Add(hn::Mul(error_x, error_x), hn::Mul(error_y, error_y));
         const auto near_enough = hn::Le(error2, hn::Set(DF{}, kAcceptedErrorPx * kAcceptedErrorPx));
         const auto in_front = hn::Le(landed.depth, hn::Set(DF{}, 1.0F));
         write(x, y, hn::And(active, hn::And(near_enough, in_front)), source_x, source_y, landed.depth);

@@ -12,9 +12,6 @@ namespace lw {
 /// A search that ended farther than this from its pixel found no surface there.
 inline constexpr float kAcceptedErrorPx = 1.0F;
 
-/// A search that came this close is over: far less than what another step could show in 8 bits.
-inline constexpr float kCloseEnoughPx = 1.0F / 4096.0F;
-
 struct InverseInput {
     const CpuPixels* pixels = nullptr;
     const LinearImage* linear = nullptr;

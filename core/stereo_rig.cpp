@@ -118,6 +118,11 @@ Result<Camera> centre_view(const Camera& display, const StereoRig& rig, double n
     view.fov = bounds.fov();
     view.size_px = {whole_px(view.fov.right - view.fov.left, px_per_tangent_x),
                     whole_px(view.fov.up - view.fov.down, px_per_tangent_y)};
+    // Half a pixel off the columns of eyes that see symmetrically. On whole pixels far surfaces would copy the view's
+    // own samples, which alias otherwise than an eye's: in the city, head still, that is an SSIM of 0.958 to an eye's
+    // own render against 0.970; elsewhere and in motion it makes no difference (0.001).
+    const bool is_between = rig.eyes[0].head_from_eye.position_m != rig.eyes[1].head_from_eye.position_m;
+    if (is_between && (view.size_px.x - display.size_px.x) % 2 == 0) ++view.size_px.x;
     // What the rounding adds is shared by both sides.
     const double spare_x = view.size_px.x / px_per_tangent_x - (view.fov.right - view.fov.left);
     const double spare_y = view.size_px.y / px_per_tangent_y - (view.fov.up - view.fov.down);

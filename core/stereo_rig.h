@@ -57,12 +57,12 @@ inline constexpr double kNearestCovered_m = 0.3;
 
 /// One view from midway between the eyes, in the mean of their orientations, that holds what every eye sees from
 /// `nearest_m` on. Its pose is relative to the head (head_from_view); it has at least as many pixels per tangent as
-/// each eye has, in whole pixels, and the near plane of `display`.
+/// each eye has, in whole pixels (an odd number more than they have), and the near plane of `display`.
 ///
 /// From midway each eye uncovers only what lies within half the eyes' distance behind an edge, on one side of it. A
 /// view moved back until both frusta fit in its own needs no margin at its edges, but it moves along its own axis too,
-/// which uncovers rings around everything near and shows it smaller: 3.2 cm back for 63 mm at 90 degrees. The margin
-/// from midway costs 11 % of the width at 0.3 m instead (docs/stereo.md has the figures of both).
+/// which uncovers rings around everything near and shows everything smaller. In the city the margin costs 11 % of the
+/// pixels and is worth 0.02 of SSIM to an eye's own render (docs/stereo.md).
 ///
 /// @param back_m  how far behind the midway point, metres, >= 0
 /// @return an error when the eyes are turned so far apart that no picture plane holds what both see

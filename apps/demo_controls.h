@@ -21,6 +21,7 @@ public:
 
     std::atomic<std::size_t> method{0};  ///< index in the list of SwitchingMethod
     std::atomic<bool> holes_shown{false};
+    std::atomic<bool> false_colours{false};  ///< which shell each pixel comes from
     std::atomic<bool> renderer_frozen{false};
     std::atomic<std::size_t> app_rate{kAppRates_hz.size() - 1};
     std::atomic<bool> overlay_shown{true};

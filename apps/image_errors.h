@@ -13,6 +13,7 @@ struct ImageErrors {
     double ssim = 1.0;
     std::optional<double> psnr_db;    ///< nothing for a picture equal to the truth
     double hole_fraction = 0.0;       ///< unreached pixels before fill, counted by the warp
+    double behind_fraction = 0.0;     ///< pixels that show what lies behind the surface that belongs there
     AttributedError attribution{};    ///< of FLIP, whose sum it is; zero where causes are not known
     std::optional<double> flicker{};  ///< against the display frame before; nothing for the first
     std::optional<double>

@@ -7,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "apps/shell_report.h"
 #include "apps/skip_report.h"
 
 namespace lw {
@@ -182,6 +183,7 @@ void describe_live_run(Report& report, const Options& options, const LiveResult&
     report.set("display/in_window", result.in_window);
     report.set("app/hz", summary.app_hz);
     report.set("app/frames", summary.app_frames);
+    if (!result.shells.empty()) describe_shells(report, result.shells);
     report.set("app/dropped", summary.app_frames_dropped);
     report.set("app/frame_ms", summary.draw_ms);
     report.set("latency_ms/motion_to_photon", summary.motion_to_photon_ms);

@@ -125,6 +125,8 @@ private:
     std::vector<ObjectTransform> mover_update_;
     std::unique_ptr<FrameExchange> exchange_ = std::make_unique<FrameExchange>();
     std::unique_ptr<FrameExchange> before_delay_ = std::make_unique<FrameExchange>();
+    HoleFeedbackLink hole_feedback_;
+    FrameWarper* one_eye_ = nullptr;  ///< the warper, where there is one
     std::unique_ptr<PictureMaker> warper_;
     StereoWarper* stereo_ = nullptr;  ///< the warper, where there are two eyes
     std::unique_ptr<HeadPosePredictor> server_predictor_;
@@ -265,6 +267,7 @@ void LiveSession::follow_keys() {
         if (key == 'M') ++controls_.method;
         if (key == 'H') controls_.holes_shown = !controls_.holes_shown;
         if (key == 'F') controls_.renderer_frozen = !controls_.renderer_frozen;
+        if (key == 'C') controls_.false_colours = !controls_.false_colours;
         if (key == 'O') controls_.overlay_shown = !controls_.overlay_shown;
         if (key == 'R') controls_.recording = !controls_.recording;
         if (key == 'T') show_next_layout();
@@ -298,9 +301,10 @@ void LiveSession::show_overlay(TimePoint now) {
         demo_method_ != nullptr ? demo_method_->labels() : std::vector<std::string>{options_.method};
     const std::string& method = labels[controls_.method % labels.size()];
     const std::vector<std::string> help{
-        fmt::format(
-            "M METHOD: {}   F {}   +/- CLIENT: {}   H HOLES{}", method, controls_.renderer_frozen ? "FROZEN" : "FREEZE",
-            rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED", controls_.holes_shown ? ": SHOWN" : ""),
+        fmt::format("M METHOD: {}   F {}   +/- CLIENT: {}   H HOLES{}   C SHELLS", method,
+                    controls_.renderer_frozen ? "FROZEN" : "FREEZE",
+                    rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED",
+                    controls_.holes_shown ? ": SHOWN" : ""),
         fmt::format("DRAG LOOK   W A S D E C MOVE   {}O OVERLAY   R {}   Q QUIT", stereo_ != nullptr ? "T EYES   " : "",
                     controls_.recording ? fmt::format("RECORDING {}", clip_->written()) : "RECORD")};
     std::vector<OverlayPanel> panels;
@@ -390,13 +394,16 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     if (textures_ && options_.source.layers > 1) {
         return Error{"a hidden layer cannot be handed over in textures yet", "--layers 2", "choose a CPU --method"};
     }
+    if (textures_ && options_.shells.on) {
+        return Error{"shells cannot be handed over in textures yet", "--shells", "choose a CPU --method"};
+    }
     // The driver compiles at the first draw; that is no frame of the run.
     Camera camera = views_.front().camera;
     camera.world_from_eye = trace_.at(0.0);
     CpuPixels pixels;
     renderer->use_billboards(true);
     renderer->draw_resolved(camera, 0.0, options_.source.samples_per_axis, pixels);
-    if (options_.source.layers > 1) {
+    if (options_.source.layers > 1 || options_.shells.on) {
         const DepthImage limits{camera.size_px, 1.0F};
         ScenePart behind;
         behind.behind = &limits;
@@ -417,6 +424,8 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     // older by more than the band covers. There `auto` means none; a band in degrees is drawn as asked.
     if (!settings.source.guard_band_rad && client_context_->is_software()) settings.source.guard_band_rad = 0.0;
     settings.textures = textures_;
+    settings.shells = options_.shells;
+    settings.feedback = options_.shells.on ? &hole_feedback_ : nullptr;
     settings.reveal_margin_m = options_.reveal_margin_m;
     settings.min_pixels = options_.culling.min_pixels;
     const auto prepare = [this](Layer& layer) {
@@ -428,6 +437,7 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     if (stop_) client_loop_->request_stop();  // asked for before there was a loop to ask
     client_loop_->run();
     result_.app_frames = client_loop_->records();
+    result_.shells = client_loop_->shell_records();
     result_.app_failure = client_loop_->failure();
     if (!result_.app_failure.empty()) {
         print_warnings({fmt::format("the client stopped ({}): its last frame stays", result_.app_failure)}, false);
@@ -475,7 +485,9 @@ Status LiveSession::make_mono_warper() {
     const bool plain = window_ == nullptr || entry_.needs_gl;
     auto warper = plain ? FrameWarper::create(options_.method, options_.fill) : make_demo_warper();
     if (!warper) return warper.error();
-    warper_ = std::make_unique<FrameWarper>(*std::move(warper));
+    auto made = std::make_unique<FrameWarper>(*std::move(warper));
+    one_eye_ = made.get();
+    warper_ = std::move(made);
     return Done{};
 }
 
@@ -526,10 +538,16 @@ void LiveSession::show_until_stopped() {
     ServerSettings settings;
     settings.camera = options_.camera();
     if (options_.lead_given) settings.pacer.fixed_lead = from_ms(options_.lead_ms);
+    settings.feedback = options_.shells.on ? &hole_feedback_ : nullptr;
     settings.strips = options_.strips;
     settings.pacer.longest_lead_periods = options_.strips;
     settings.photon_codes = has_photon_codes();
-    if (window_ != nullptr) settings.on_record = [this](const DisplayRecord& record) { note_record(record); };
+    if (window_ != nullptr) {
+        settings.on_record = [this](const DisplayRecord& record) {
+            note_record(record);
+            if (one_eye_ != nullptr) one_eye_->set_false_colours(controls_.false_colours);
+        };
+    }
     settings.reserved_refreshes = reserved_parts();
     settings.thread_cpu_time = entry_.needs_gl ? nullptr : thread_cpu_time;
     Presenter& presenter = window_ != nullptr ? static_cast<Presenter&>(*window_) : *virtual_display_;

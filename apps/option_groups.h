@@ -18,6 +18,9 @@ void declare_autotune(Declarer& declare);
 /// --layers: what a frame of the client consists of.
 void declare_layers(Declarer& declare);
 
+/// --shells, --shell-samples, --app-budget, --max-age: the client's frames as shells around the viewer.
+void declare_shells(Declarer& declare);
+
 /// --billboards and --billboard-*: which objects the client draws as billboards, and how.
 void declare_billboards(Declarer& declare);
 

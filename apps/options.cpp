@@ -222,6 +222,7 @@ void declare_live(Declarer declare) {
     declare_source(declare);
     declare_guard_band(declare, true);
     declare_layers(declare);
+    declare_shells(declare);
     declare_skip(declare);
     declare_billboards(declare);
     declare_stereo(declare);
@@ -246,6 +247,7 @@ void declare_replay(Declarer declare) {
     declare_source(declare);
     declare_guard_band(declare, true);
     declare_layers(declare);
+    declare_shells(declare);
     declare_skip(declare);
     declare_billboards(declare);
     declare_stereo(declare);
@@ -482,6 +484,12 @@ glm::ivec2 largest_source_px(const Options& options) {
 Status check_together(const Options& options) {
     const Status autotune = check_autotune(options);
     if (!autotune) return autotune;
+    if (options.shells.on && options.stereo.on) {
+        return Error{"shells are drawn for one eye", "--shells --eyes stereo", "leave out one of them"};
+    }
+    if (options.shells.on && options.billboards.mode != BillboardMode::off) {
+        return Error{"shells draw far objects as they are", "--shells --billboards", "leave out one of them"};
+    }
     const Status stereo = check_stereo(options);
     if (!stereo) return stereo;
     if (!options.bench_merge.empty() && options.bench_part == "all") {
@@ -521,6 +529,7 @@ Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments
     if (options.fill.empty()) options.fill = is_live(options.subcommand) ? "nearest-background" : "pyramid";
     // A single frame tells nothing of the head's motion, and plain `warp` of its folder is to show the plain view.
     if (options.subcommand == Subcommand::render && !options.source.guard_band_rad) options.source.guard_band_rad = 0.0;
+    if (options.shells.on && !options.layers_given) options.source.layers = 2;
     seed_the_scene(options);
     const Status together = check_together(options);
     if (!together) return together.error();

@@ -11,6 +11,7 @@
 #include "apps/stereo_options.h"
 #include "billboard_lod/billboard_settings.h"
 #include "client_renderer/culling_settings.h"
+#include "client_renderer/shell_settings.h"
 #include "client_renderer/source_camera.h"
 #include "core/camera.h"
 #include "core/pose.h"
@@ -75,6 +76,8 @@ struct Options {
     /// --source-samples, --source-density and --guard-band; render has no guard band unless it is given.
     SourceSettings source{1, 1.0, std::nullopt};  // and --layers
 
+    ShellSettings shells;                   ///< --shells, --shell-samples, --app-budget, --max-age
+    bool layers_given = false;              ///< with shells the nearest has a hidden layer unless this is set
     CullingSettings culling;                ///< --no-skip
     std::optional<double> reveal_margin_m;  ///< --reveal-margin, metres; as the head moves unless given
     BillboardSettings billboards{};         ///< --billboards, --billboard-*

@@ -8,6 +8,7 @@
 #include "apps/replay_report.h"
 #include "apps/replay_run.h"
 #include "apps/report.h"
+#include "apps/shell_report.h"
 #include "apps/subcommands.h"
 #include "core/image_io.h"
 
@@ -154,6 +155,7 @@ Result<ReplayResult> run_all(const Options& options, ReplayRun& run) {
     }
     result.costs = run.costs();
     result.client_draws = run.client_draws();
+    if (run.shells() != nullptr) result.shells = run.shells()->records();
     result.bad_depth_pixels = run.bad_depth_count();
     result.source_pixels_ratio = run.source_pixels_ratio();
     return result;
@@ -181,6 +183,13 @@ Status write_folder(const Options& options, ReplayRun& run, const ReplayResult& 
     const Status html = write_text(options.out / "report.html",
                                    replay_html(result, title, description_of(options, result), *strip_png));
     if (!html) return html;
+    if (!result.shells.empty()) {
+        const Status rows = write_text(options.out / "shells.csv", shell_timeline_csv(result.shells));
+        const Status plot = write_text(options.out / "shells.svg", shell_timeline_svg(result.shells));
+        for (const Status& status : {rows, plot}) {
+            if (!status) return status;
+        }
+    }
     return report.write(options.out / "report.json");
 }
 

@@ -5,7 +5,10 @@
 
 #include "apps/stopwatch.h"
 #include "client_renderer/hidden_layer.h"
+#include "client_renderer/layer_statistics.h"
 #include "client_renderer/reveal_margin.h"
+#include "client_renderer/shell_budget.h"
+#include "warp_server/hole_attribution.h"
 
 namespace lw {
 
@@ -46,6 +49,7 @@ void ReplayClient::draw_view(View& view, std::uint64_t frame, const PredictedPos
     renderer.use_billboards(true);  // by the client alone: truth and fresh pictures are meshes
     renderer.draw_resolved(layer->camera, layer->scene_time_s, options_.source.samples_per_axis, layer->cpu());
     counters_.push_back(renderer.counters());
+    model_ms_.back() += modelled_ms(renderer, *layer);
     renderer.use_billboards(false);
     renderer.mover_placements(layer->scene_time_s, layer->movers);
     layers.push_back(std::move(layer));
@@ -53,6 +57,7 @@ void ReplayClient::draw_view(View& view, std::uint64_t frame, const PredictedPos
     auto hidden = std::make_shared<Layer>();
     draw_hidden_layer(renderer, *layers.back(), options_.source.samples_per_axis, eye_motion_m, *hidden);
     hidden->for_eye = view.drawn.for_eye;
+    model_ms_.back() += modelled_ms(renderer, *hidden);
     layers.push_back(std::move(hidden));
 }
 
@@ -64,6 +69,16 @@ void ReplayClient::draw(std::uint64_t frame, const ReplayHead& head, SceneRender
     renderer.set_viewer_moves(options_.culling.min_pixels > 0.0 &&
                               viewer_moves(head.client_predictor, head.feed, begin, head.clock.end_of_life(frame)));
     std::vector<std::shared_ptr<Layer>> layers;
+    if (options_.shells.on) {
+        draw_shells(frame, head, renderer);
+        renderer.set_viewer_moves(false);
+        prepare(shells_->drawn());
+        const TimePoint published = head.clock.published(frame);
+        frame_ = {frame + 1, shells_->layers(), {pose.newest_sample, begin, published, published}};
+        drawn_frame_ = frame;
+        return;
+    }
+    model_ms_.push_back(0.0);
     const Stopwatch drawing;
     for (View& view : views_) draw_view(view, frame, pose, head, renderer, layers);
     draw_ms_.push_back(drawing.ms());
@@ -72,6 +87,67 @@ void ReplayClient::draw(std::uint64_t frame, const ReplayHead& head, SceneRender
     const TimePoint published = head.clock.published(frame);
     frame_ = {frame + 1, {layers.begin(), layers.end()}, {pose.newest_sample, begin, published, published}};
     drawn_frame_ = frame;
+}
+
+// Frames of shells depend on those before them.
+ShellMoment ReplayClient::moment_of(std::uint64_t frame, const ReplayHead& head) {
+    const TimePoint begin = head.clock.sampled(frame);
+    const auto head_at = [&](TimePoint time) { return head.client_predictor.predict(head.feed, begin, time); };
+    const PredictedPose middle = head_at(drawn_for(frame, head));
+    ShellMoment moment;
+    moment.now_s = seconds_of(begin);
+    moment.scene_time_s = seconds_of(drawn_for(frame, head));
+    moment.pose_sampled = middle.newest_sample;
+    moment.shown_from = head_at(head.clock.published(frame)).world_from_head;
+    moment.shown_middle = middle.world_from_head;
+    moment.shown_until = head_at(head.clock.end_of_life(frame)).world_from_head;
+    moment.source = camera_of(views_.front(), frame, head);
+    if (frame < main_view_model_ms_.size()) moment.main_view_ms = main_view_model_ms_[frame];
+    moment.head_motion_m =
+        reveal_margin_m(options_.reveal_margin_m, head.client_predictor, head.feed, begin, moment.shown_middle,
+                        head.clock.published(frame), head.clock.end_of_life(frame));
+    return moment;
+}
+
+// What one layer with everything would cost in each frame up to this one: the budget of its shells.
+void ReplayClient::learn_main_view(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer) {
+    for (std::uint64_t next = main_view_model_ms_.size(); next <= frame; ++next) {
+        const ShellMoment moment = moment_of(next, head);
+        Layer layer;
+        layer.camera = moment.source;
+        layer.camera.world_from_eye = moment.shown_middle;
+        renderer.set_reveal_margin(moment.head_motion_m);
+        const Stopwatch drawing;
+        renderer.draw_resolved(layer.camera, moment.scene_time_s, options_.source.samples_per_axis, layer.cpu());
+        main_view_ms_.push_back(drawing.ms());
+        main_view_model_ms_.push_back(modelled_ms(renderer, layer));
+    }
+}
+
+void ReplayClient::draw_shells(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer) {
+    if (!shells_) shells_ = std::make_unique<ReplayShells>(renderer, options_);
+    if (!options_.shells.budget_ms) learn_main_view(frame, head, renderer);
+    const Stopwatch drawing;
+    shells_->draw(frame, [&](std::uint64_t k) { return moment_of(k, head); });
+    draw_ms_.push_back(drawing.ms());
+    model_ms_.push_back(shells_->records().back().spent_ms);
+    counters_.push_back(shells_->counters());
+}
+
+void ReplayClient::report(const DisplayFrame& shown, const Camera& target, TimePoint scanout) {
+    if (!shells_) return;
+    HoleFeedback feedback;
+    feedback.shown = scanout;
+    attribute_holes(shown, frame_, target, feedback);
+    shells_->report(std::move(feedback));
+}
+
+// What the renderer's last picture is modelled to cost.
+double ReplayClient::modelled_ms(const SceneRenderer& renderer, const Layer& layer) const {
+    const double samples = options_.source.samples_per_axis * options_.source.samples_per_axis;
+    const double pixels = static_cast<double>(layer.camera.size_px.x) * layer.camera.size_px.y;
+    return modelled_cost_ms(static_cast<double>(renderer.counters().triangles_drawn), samples * pixels,
+                            samples * statistics_of(layer).surface_px);
 }
 
 const Layer& ReplayClient::layer_for(Eye eye) const {

@@ -3,17 +3,20 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "apps/options.h"
 #include "apps/replay_clock.h"
+#include "apps/replay_shells.h"
 #include "client_renderer/scene_renderer.h"
 #include "client_renderer/source_camera.h"
 #include "frame_link/drawn_view.h"
 #include "frame_link/prediction.h"
 #include "frame_link/rendered_frame.h"
+#include "warp_server/warp_method.h"
 
 namespace lw {
 
@@ -39,6 +42,10 @@ public:
     void draw(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer,
               const std::function<void(std::span<const std::shared_ptr<Layer>>)>& prepare);
 
+    /// With shells: the server showed `shown` of frame(), scanned out at `scanout`. The client hears of its holes when
+    /// it begins its next frame after that.
+    void report(const DisplayFrame& shown, const Camera& target, TimePoint scanout);
+
     /// The frame drawn last; it has a layer for each view, with hidden layers two.
     [[nodiscard]] const RenderedFrame& frame() const { return frame_; }
     /// The layer that `eye` is shown from before what is hidden in it.
@@ -46,6 +53,12 @@ public:
 
     [[nodiscard]] const std::vector<double>& draw_ms() const { return draw_ms_; }  ///< per frame, all of its views
     [[nodiscard]] const std::vector<DrawCounters>& counters() const { return counters_; }  ///< per frame and view
+    /// The same modelled (client_renderer/shell_budget.h): equal in equal runs.
+    [[nodiscard]] const std::vector<double>& model_ms() const { return model_ms_; }
+    /// With shells, per frame: drawing everything as one layer would take so long.
+    [[nodiscard]] const std::vector<double>& main_view_ms() const { return main_view_ms_; }
+    /// Null without shells, and before the first frame.
+    [[nodiscard]] const ReplayShells* shells() const { return shells_.get(); }
     /// Pixels of all views of a frame over `display_px`, mean over the frames.
     [[nodiscard]] double source_pixels_ratio(glm::ivec2 display_px) const;
 
@@ -59,6 +72,10 @@ private:
     [[nodiscard]] const Camera& camera_of(View& view, std::uint64_t frame, const ReplayHead& head);
     void draw_view(View& view, std::uint64_t frame, const PredictedPose& pose, const ReplayHead& head,
                    SceneRenderer& renderer, std::vector<std::shared_ptr<Layer>>& layers);
+    void draw_shells(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer);
+    [[nodiscard]] ShellMoment moment_of(std::uint64_t frame, const ReplayHead& head);
+    void learn_main_view(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer);
+    [[nodiscard]] double modelled_ms(const SceneRenderer& renderer, const Layer& layer) const;
     [[nodiscard]] TimePoint drawn_for(std::uint64_t frame, const ReplayHead& head) const;
 
     Options options_;
@@ -66,6 +83,10 @@ private:
     std::optional<std::uint64_t> drawn_frame_;  ///< number of the frame that frame_ holds
     RenderedFrame frame_;
     std::vector<double> draw_ms_;
+    std::vector<double> model_ms_;
+    std::vector<double> main_view_ms_;
+    std::vector<double> main_view_model_ms_;
+    std::unique_ptr<ReplayShells> shells_;
     std::vector<DrawCounters> counters_;
 };
 

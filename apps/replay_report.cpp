@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "apps/shell_report.h"
 #include "apps/skip_report.h"
 
 namespace lw {
@@ -20,6 +21,7 @@ std::optional<double> flip_of(const ImageErrors& errors) { return errors.flip; }
 std::optional<double> ssim_of(const ImageErrors& errors) { return errors.ssim; }
 std::optional<double> psnr_of(const ImageErrors& errors) { return errors.psnr_db; }
 std::optional<double> holes_of(const ImageErrors& errors) { return errors.hole_fraction; }
+std::optional<double> behind_of(const ImageErrors& errors) { return errors.behind_fraction; }
 std::optional<double> flicker_of(const ImageErrors& errors) { return errors.flicker; }
 std::optional<double> resampled_of(const ImageErrors& errors) { return errors.attribution.resampled; }
 std::optional<double> disoccluded_of(const ImageErrors& errors) { return errors.attribution.disoccluded; }
@@ -73,6 +75,7 @@ void add_errors(Report& report, const std::string& path, const ErrorSummary& sum
     report.set(path + "/ssim", summary.ssim);
     report.set(path + "/psnr_db", summary.psnr_db);
     report.set(path + "/hole_fraction", summary.hole_fraction);
+    report.set(path + "/behind_fraction", summary.behind_fraction);
     report.set(path + "/flicker", summary.flicker);
     if (summary.ssim_to_same) report.set(path + "/ssim_to_fresh_same", summary.ssim_to_same);
     report.set(path + "/attribution/resampled", summary.attribution.resampled);
@@ -104,6 +107,7 @@ void add_costs(Report& report, const ReplayResult& result) {
     report.set("cost_ms/warp", cost_of(costs.warp_ms.front()));
     report.set("cost_ms/prepare", cost_of(costs.prepare_ms.front()));
     report.set("cost_ms/app", cost_of(costs.app_ms.front()));
+    if (!costs.main_view_ms.empty()) report.set("cost_ms/main_view", cost_of(costs.main_view_ms));
     for (std::size_t i = 1; i < result.labels.size(); ++i) {
         const std::string path = "cost_ms/baselines/" + result.labels[i];
         report.set(path + "/warp", cost_of(costs.warp_ms[i]));
@@ -235,6 +239,7 @@ ErrorSummary summary_of(const ReplayResult& result, std::size_t method, std::opt
             over_run(ssim_of),
             distribution_of(psnr_db),
             over_run(holes_of),
+            over_run(behind_of),
             over_run(flicker_of),
             over_run(ssim_to_same_of),
             {over_run(resampled_of), over_run(disoccluded_of), over_run(out_of_frame_of), over_run(stale_shading_of)},
@@ -287,6 +292,8 @@ void add_replay_results(Report& report, const ReplayResult& result) {
     std::vector<double> ages_ms;
     for (const RefreshRecord& record : result.refreshes) ages_ms.push_back(record.frame_age_ms());
     report.set("frame_age_ms", distribution_of(ages_ms));
+    report.set("app_model_ms", cost_of(result.costs.app_model_ms));
+    if (!result.shells.empty()) describe_shells(report, result.shells);
     add_costs(report, result);
     describe_skipped(report, result.client_draws);
 }

@@ -18,6 +18,7 @@ struct ReplayResult {
     std::vector<RefreshRecord> refreshes;
     ReplayCosts costs;
     std::vector<DrawCounters> client_draws;  ///< of every view of every client frame
+    std::vector<ShellFrameRecord> shells;    ///< by client frame; empty without shells
     double pixels_per_degree = 0.0;
     double source_pixels_ratio = 1.0;    ///< pixels of the client's frames over those of one eye's picture, mean
     std::uint64_t bad_depth_pixels = 0;  ///< of --method, over all refreshes
@@ -29,6 +30,7 @@ struct ErrorSummary {
     std::optional<Distribution> ssim;
     std::optional<Distribution> psnr_db;  ///< over the frames that differ from the truth
     std::optional<Distribution> hole_fraction;
+    std::optional<Distribution> behind_fraction;
     std::optional<Distribution> flicker;       ///< over the frames that have one before them
     std::optional<Distribution> ssim_to_same;  ///< against `fresh-same`, where that is a baseline
     struct Parts {

@@ -83,6 +83,7 @@ Status ReplayRun::make_methods(const Trace& trace) {
         for (RefreshPictures* pictures : {&eye.pictures, &eye.pictures_before}) {
             pictures->shown.resize(labels_.size());
             pictures->hole_fraction.resize(labels_.size());
+            pictures->behind_fraction.resize(labels_.size());
             pictures->invented.resize(labels_.size());
         }
     }
@@ -111,6 +112,8 @@ double ReplayRun::pixels_per_degree() const { return lw::pixels_per_degree(camer
 ReplayCosts ReplayRun::costs() const {
     ReplayCosts costs = costs_;
     for (std::size_t i = 0; i < labels_.size(); ++i) costs.app_ms.push_back(client_of(i).draw_ms());
+    costs.app_model_ms = client_of(0).model_ms();
+    costs.main_view_ms = client_of(0).main_view_ms();
     return costs;
 }
 
@@ -171,9 +174,12 @@ void ReplayRun::show(std::size_t method, const Pose& predicted_head, const Pose&
         const FrameWarper& shown = methods_[method].eye(i);
         eyes_[i].pictures.shown[method] = shown.display_frame().colour;
         eyes_[i].pictures.hole_fraction[method] = shown.hole_fraction();
+        eyes_[i].pictures.behind_fraction[method] = eyes_[i].truth.share_shown_behind(shown.display_frame());
         if (rig_) mark_invented(shown.display_frame().coverage, eyes_[i].pictures.invented[method]);
     }
-    if (method == 0) bad_depth_count_ += methods_[method].counters().bad_depth;
+    if (method != 0) return;
+    bad_depth_count_ += methods_[method].counters().bad_depth;
+    clients_[client_index_[method]].report(methods_[method].eye(0).display_frame(), target.camera, shown_at_);
 }
 
 void ReplayRun::draw(std::uint64_t refresh) {
@@ -183,6 +189,7 @@ void ReplayRun::draw(std::uint64_t refresh) {
 
     const Refresh times = clock_.refresh(refresh);
     const TimePoint photon = times.photon();
+    shown_at_ = times.scanout_begin;
     const double photon_s = seconds_of(photon);
     const PredictedPose head = server_predictor_->predict(feed_, clock_.latched(refresh), photon);
     const Pose true_head = feed_.pose_at(photon);
@@ -216,6 +223,7 @@ EyeRecord ReplayRun::judge_eye(std::size_t index) const {
         ImageErrors& errors = record.errors[i];
         errors = errors_against(eye.pictures.truth, shown, ppd, &causes[client_index_[i]]);
         errors.hole_fraction = eye.pictures.hole_fraction[i];
+        errors.behind_fraction = eye.pictures.behind_fraction[i];
         if (has_before_) {
             errors.flicker = flicker(eye.pictures.truth, shown, eye.pictures_before.truth, eye.pictures_before.shown[i],
                                      pixels_before);

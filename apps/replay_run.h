@@ -29,6 +29,7 @@ struct RefreshPictures {
     ColourImage truth;
     std::vector<ColourImage> shown;
     std::vector<double> hole_fraction;          ///< before fill
+    std::vector<double> behind_fraction;        ///< reached, by something behind what should be seen there
     std::vector<Image<std::uint8_t>> invented;  ///< 1 where the fill made a pixel up; empty with one eye
 };
 
@@ -55,6 +56,8 @@ struct RefreshRecord {
 /// Wall times; what differs between two equal runs.
 struct ReplayCosts {
     std::vector<std::vector<double>> app_ms;      ///< per method and client frame: drawing what it needs, every view
+    std::vector<double> app_model_ms;             ///< of --method, modelled (shell_budget.h): equal in equal runs
+    std::vector<double> main_view_ms;             ///< of --method with shells: drawing everything as one layer
     std::vector<std::vector<double>> prepare_ms;  ///< per method and client frame; empty for `fresh`
     std::vector<std::vector<double>> warp_ms;  ///< per method and refresh, fill included, all eyes; empty for `fresh`
 };
@@ -88,6 +91,8 @@ public:
     /// Pixels of the frames drawn for --method so far over those of one eye's picture, mean over the frames.
     [[nodiscard]] double source_pixels_ratio() const { return client_of(0).source_pixels_ratio(options_.size_px); }
     [[nodiscard]] std::uint64_t bad_depth_count() const { return bad_depth_count_; }
+    /// Null without shells; its records are by client frame.
+    [[nodiscard]] const ReplayShells* shells() const { return client_of(0).shells(); }
 
 private:
     /// What one eye sees, now and at the draw() before.
@@ -134,6 +139,7 @@ private:
     bool has_before_ = false;  ///< the draw() before was of the refresh before
     ReplayCosts costs_;
     std::uint64_t bad_depth_count_ = 0;
+    TimePoint shown_at_;  ///< scan-out of the refresh being drawn
 };
 
 }  // namespace lw

@@ -9,6 +9,7 @@
 #include "core/error_attribution.h"
 #include "core/flicker.h"
 #include "frame_link/rendered_frame.h"
+#include "warp_server/warp_method.h"
 
 namespace lw {
 
@@ -20,6 +21,10 @@ public:
 
     [[nodiscard]] const ColourImage& colour() const { return pixels_.colour; }
     [[nodiscard]] const std::vector<ObjectTransform>& movers() const { return movers_; }
+
+    /// Share of the pixels that a source pixel reached but whose depth says that it lies behind what should be seen:
+    /// farther, by a fifth, than all truth within a pixel.
+    [[nodiscard]] double share_shown_behind(const DisplayFrame& shown) const;
 
     /// Why a method that warps `source` errs, pixel by pixel. Any thread.
     [[nodiscard]] Image<ErrorCause> causes(const Layer& source, int threads) const;

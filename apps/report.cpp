@@ -126,6 +126,13 @@ void describe_settings(Report& report, const Options& options) {
         set("stereo", name_of(options.stereo.mode));
         set("ipd_mm", options.stereo.ipd_m * 1e3);
     }
+    if (options.shells.on) {
+        options.shells.shells == 0 ? set("shells", "auto") : set("shells", options.shells.shells);
+        set("shell_samples", options.shells.samples_per_axis);
+        set("max_age_s", options.shells.max_age_s);
+    } else {
+        set("shells", "off");
+    }
     set("app_hz", options.app_hz);
     set("display_hz", options.display_hz);
     if (options.predict) set("predict", *options.predict);

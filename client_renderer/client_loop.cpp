@@ -14,6 +14,9 @@ namespace {
 // How often a client that was told to hold still looks whether it still is.
 constexpr Duration kFrozenLook = std::chrono::milliseconds{10};
 
+// How often a client of shells looks whether anything has become wrong, while nothing has.
+constexpr Duration kValidLook = std::chrono::milliseconds{5};
+
 // Frames differ little from one to the next: a third of the newest follows a change within a few frames and halves the
 // jitter.
 Duration smoothed(Duration past, Duration newest) {
@@ -38,6 +41,13 @@ ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed
     }
     LW_CHECK(predictor_ != nullptr, "a client without a predictor");
     records_.reserve(4096);  // minutes of frames: growing would cost a frame now and then
+    if (!settings_.shells.on) return;
+    settings_.shells.clock = &clock_;
+    const auto prepare_drawn = [this](const std::shared_ptr<Layer>& layer) {
+        if (prepare_) prepare_(*layer);
+    };
+    shells_ =
+        std::make_unique<ShellClient>(renderer_, settings_.camera, settings_.source, settings_.shells, prepare_drawn);
 }
 
 void ClientLoop::run() {
@@ -100,7 +110,48 @@ double ClientLoop::eye_motion_m(const View& view, const FrameTimes& times) {
                                                        times.head.world_from_head, shown_from, shown_from + period_);
 }
 
+const std::vector<ShellFrameRecord>& ClientLoop::shell_records() const {
+    static const std::vector<ShellFrameRecord> none;
+    return shells_ != nullptr ? shells_->records() : none;
+}
+
+void ClientLoop::draw_and_publish_shells() {
+    const TimePoint sampled = clock_.now();
+    const TimePoint target = settings_.predict_source_pose ? middle_of_display_life(sampled) : sampled;
+    const TimePoint shown_from = sampled + latency_;
+    const auto head_at = [&](TimePoint time) { return predictor_->predict(head_, sampled, time); };
+    const PredictedPose middle = head_at(target);
+    ShellMoment moment;
+    moment.now_s = seconds_of(sampled);
+    moment.scene_time_s = seconds_of(target);
+    moment.pose_sampled = middle.newest_sample;
+    moment.shown_from = head_at(shown_from).world_from_head;
+    moment.shown_middle = middle.world_from_head;
+    moment.shown_until = head_at(shown_from + period_).world_from_head;
+    moment.source = views_.front().cameras.next(head_, sampled, latency_ + period_);
+    moment.head_motion_m = reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled, moment.shown_middle,
+                                           shown_from, shown_from + period_);
+    if (settings_.feedback != nullptr) shells_->take(settings_.feedback->take());
+
+    auto frame = std::make_shared<RenderedFrame>();
+    frame->times.pose_sampled = middle.newest_sample;
+    frame->times.render_begin = clock_.now();
+    frame->layers = shells_->draw(moment);
+    frame->times.render_end = clock_.now();
+    if (shells_->records().back().draws.empty() && !records_.empty()) {
+        clock_.sleep_until(clock_.now() + kValidLook);
+        return;
+    }
+    frame->index = records_.size() + 1;
+    frame->times.published = clock_.now();
+    const ClientFrameRecord record{frame->index, frame->times, shells_->counters()};
+    exchange_.publish(std::move(frame));
+    learn_timing(sampled, record.times.published);
+    records_.push_back(record);
+}
+
 void ClientLoop::draw_and_publish() {
+    if (shells_ != nullptr) return draw_and_publish_shells();
     const TimePoint sampled = clock_.now();
     const TimePoint target = settings_.predict_source_pose ? middle_of_display_life(sampled) : sampled;
     const FrameTimes times{sampled, target, predictor_->predict(head_, sampled, target)};

@@ -11,6 +11,7 @@
 
 #include "client_renderer/layer_pool.h"
 #include "client_renderer/scene_renderer.h"
+#include "client_renderer/shell_client.h"
 #include "client_renderer/source_camera.h"
 #include "core/clock.h"
 #include "frame_link/drawn_view.h"
@@ -23,6 +24,8 @@ struct ClientSettings {
     Camera camera;                 ///< the display's size, field of view and near plane; its pose is ignored
     std::vector<DrawnView> views;  ///< what is drawn for two eyes; empty: one view of `camera`
     SourceSettings source;         ///< what is drawn for it
+    ShellSettings shells;          ///< on: one view's frames consist of shells; one with nothing new is not published
+    HoleFeedbackLink* feedback = nullptr;  ///< where the server reports holes; null: it does not. Outlives the loop
     std::optional<double> reveal_margin_m = 0.0;  ///< --reveal-margin, metres; nothing: as the head moves
     double min_pixels = 0.0;                      ///< --min-pixels, to tell the renderer whether the viewer moves
     double max_hz = 0.0;                          ///< 0: as fast as it can
@@ -72,6 +75,8 @@ public:
 
     /// Every published frame. After run() has returned.
     [[nodiscard]] const std::vector<ClientFrameRecord>& records() const { return records_; }
+    /// Of every turn of the loop, drawn or not; empty without shells. After run() has returned.
+    [[nodiscard]] const std::vector<ShellFrameRecord>& shell_records() const;
 
 private:
     struct View {
@@ -89,6 +94,7 @@ private:
     void draw_view(View& view, const FrameTimes& times, std::vector<std::shared_ptr<Layer>>& layers);
     void draw_hidden(const View& view, const FrameTimes& times, std::vector<std::shared_ptr<Layer>>& layers);
     [[nodiscard]] double eye_motion_m(const View& view, const FrameTimes& times);
+    void draw_and_publish_shells();
     [[nodiscard]] TimePoint middle_of_display_life(TimePoint sampled) const;
     void learn_timing(TimePoint sampled, TimePoint published);
 
@@ -101,6 +107,7 @@ private:
     ClientSettings settings_;
     std::vector<View> views_;
     LayerPool layers_;
+    std::unique_ptr<ShellClient> shells_;
     std::atomic<bool> stop_{false};
     std::atomic<bool> frozen_{false};
     std::atomic<double> max_hz_;

@@ -5,9 +5,8 @@
 namespace lw {
 
 void draw_hidden_layer(SceneRenderer& renderer, const Layer& first, int samples_per_axis, double head_motion_m,
-                       Layer& hidden) {
+                       Layer& hidden, ScenePart part) {
     const DepthImage limits = hidden_limits(first.camera, first.cpu().depth, head_motion_m);
-    ScenePart part;
     part.behind = &limits;
     hidden.name = "hidden";
     hidden.camera = first.camera;

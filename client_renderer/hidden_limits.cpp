@@ -30,8 +30,8 @@ public:
         find_edges();
         for (int y = 0; y < limits.height(); ++y) {
             for (int x = 0; x < limits.width(); ++x) {
-                const int reach_px = reach_.at(x / kTilePx, y / kTilePx);
-                if (reach_px > 0 && is_needed({x, y}, reach_px)) limits.at(x, y) = limit_at({x, y});
+                const Reach& reach = reach_.at(x / kTilePx, y / kTilePx);
+                if (reach.pixels > 0 && is_needed({x, y}, reach)) limits.at(x, y) = limit_at({x, y});
             }
         }
         return limits;
@@ -58,38 +58,60 @@ private:
         return bend < 0.5F * std::abs(a - b) ? 0.0F : gap;
     }
 
-    // How far around each tile its pixels have to look: as far as the widest gap whose edge is that near.
+    // What the pixels of a tile have to look for.
+    struct Reach {
+        int pixels = 0;         // as far as the widest gap whose edge is that near; 0: no edge is near
+        float farthest = 1.0F;  // depth of the farthest surface at an edge that near
+    };
+    // The edges in a tile.
+    struct Edges {
+        float widest_px = 0.0F;
+        float farthest = 1.0F;
+    };
+
     void find_edges() {
-        reach_ = Image<int>{(depth_.size_px() + kTilePx - 1) / kTilePx, 0};
-        Image<float> widest{reach_.size_px(), 0.0F};
+        reach_ = Image<Reach>{(depth_.size_px() + kTilePx - 1) / kTilePx};
+        Image<Edges> edges{reach_.size_px()};
         for (int y = 0; y <= last_.y; ++y) {
             for (int x = 0; x <= last_.x; ++x) {
-                float& tile = widest.at(x / kTilePx, y / kTilePx);
-                if (x < last_.x) tile = std::max(tile, gap_px({x, y}, {1, 0}));
-                if (y < last_.y) tile = std::max(tile, gap_px({x, y}, {0, 1}));
+                Edges& tile = edges.at(x / kTilePx, y / kTilePx);
+                for (const glm::ivec2& step : {glm::ivec2{1, 0}, glm::ivec2{0, 1}}) {
+                    if (!inside(glm::ivec2{x, y} + step)) continue;
+                    const float gap = gap_px({x, y}, step);
+                    if (gap == 0.0F) continue;
+                    tile.widest_px = std::max(tile.widest_px, gap);
+                    tile.farthest = std::min({tile.farthest, at({x, y}), at(glm::ivec2{x, y} + step)});
+                }
             }
         }
-        for (int y = 0; y < widest.height(); ++y) {
-            for (int x = 0; x < widest.width(); ++x) {
-                if (widest.at(x, y) > 0.0F) spread({x, y}, widest.at(x, y));
+        for (int y = 0; y < edges.height(); ++y) {
+            for (int x = 0; x < edges.width(); ++x) {
+                if (edges.at(x, y).widest_px > 0.0F) spread({x, y}, edges.at(x, y));
             }
         }
     }
 
-    void spread(glm::ivec2 tile, float gap_px) {
-        const int reach_px = std::min(static_cast<int>(std::ceil(gap_px)) + kRimPx, kWidestPx);
+    void spread(glm::ivec2 tile, const Edges& edges) {
+        const int reach_px = std::min(static_cast<int>(std::ceil(edges.widest_px)) + kRimPx, kWidestPx);
         const int tiles = (reach_px + kTilePx - 1) / kTilePx;
         const glm::ivec2 first = glm::max(tile - tiles, glm::ivec2{0});
         const glm::ivec2 end = glm::min(tile + tiles + 1, reach_.size_px());
         for (int y = first.y; y < end.y; ++y) {
-            for (int x = first.x; x < end.x; ++x) reach_.at(x, y) = std::max(reach_.at(x, y), reach_px);
+            for (int x = first.x; x < end.x; ++x) {
+                Reach& reach = reach_.at(x, y);
+                reach.pixels = std::max(reach.pixels, reach_px);
+                reach.farthest = std::min(reach.farthest, edges.farthest);
+            }
         }
     }
 
-    [[nodiscard]] bool is_needed(glm::ivec2 px, int reach_px) const {
+    // Most pixels look no farther than the rim: what they may shift by against anything near them is less.
+    [[nodiscard]] bool is_needed(glm::ivec2 px, const Reach& reach) const {
         const float here = at(px);
+        const float most_px = px_per_depth_ * (here - reach.farthest) + 1.0F;
+        const int farthest_px = std::min(reach.pixels, std::max(static_cast<int>(most_px), kRimPx));
         for (const int distance_px : kLookPx) {
-            if (distance_px > reach_px) break;
+            if (distance_px > farthest_px) break;
             for (const glm::ivec2& direction : kDirections) {
                 const glm::ivec2 there = px + distance_px * direction;
                 if (!inside(there)) continue;
@@ -123,7 +145,7 @@ private:
     const DepthImage& depth_;
     const float px_per_depth_;
     const glm::ivec2 last_ = depth_.size_px() - 1;
-    Image<int> reach_;  // per tile, pixels; 0: no edge is near
+    Image<Reach> reach_;  // per tile
 };
 
 }  // namespace

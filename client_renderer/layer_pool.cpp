@@ -16,6 +16,7 @@ std::shared_ptr<Layer> LayerPool::acquire() {
     if (!layer) layer = std::make_unique<Layer>();
     layer->name = "main";
     layer->empty_pixels = 0;
+    layer->content = {};
     const auto give_back = [weak = std::weak_ptr<Shelf>{shelf_}](Layer* returned) {
         std::unique_ptr<Layer> owned{returned};
         // Textures belong to a context that may not be current wherever the layer comes back: they go with the layer.

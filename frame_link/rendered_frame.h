@@ -51,6 +51,15 @@ struct PreparedLayer {
     virtual ~PreparedLayer() = default;
 };
 
+/// What a server may rely on to leave a layer out where it shows nothing. The defaults promise nothing.
+struct LayerContent {
+    std::uint32_t item = 0;      ///< the client's number of it, for HoleFeedback
+    std::uint16_t shell = 0;     ///< distance range it belongs to, 0 the nearest; for false colours
+    bool static_only = false;    ///< no pixel belongs to a mover
+    float nearest_depth = 1.0F;  ///< no pixel's depth is larger
+    double nearest_ray_m = 0.0;  ///< no pixel's surface is nearer along its ray
+};
+
 /// One image with everything needed to warp it. Immutable once published.
 struct Layer {
     std::string name = "main";
@@ -59,7 +68,8 @@ struct Layer {
     TimePoint pose_sampled;      ///< stamp of the newest head sample that `camera` was predicted from
     double scene_time_s = 0.0;   ///< time the movers were drawn at
     FramePixels pixels;
-    std::uint64_t empty_pixels = 0;       ///< how many have kNoSurfaceDepth
+    std::uint64_t empty_pixels = 0;  ///< how many have kNoSurfaceDepth
+    LayerContent content;
     std::vector<ObjectTransform> movers;  ///< every mover's placement as drawn, by ascending id
 
     /// Programmer errors when the pixels live elsewhere.

@@ -11,20 +11,6 @@
 namespace lw {
 namespace {
 
-// Of two reached pixels the nearer one is seen; a hole shows whatever the other layer has.
-void merge_nearest(const DisplayFrame& layer, DisplayFrame& into) {
-    const std::size_t count = into.coverage.pixels().size();
-    for (std::size_t i = 0; i < count; ++i) {
-        if (layer.coverage.pixels()[i] != Coverage::reached) continue;
-        const bool hidden =
-            into.coverage.pixels()[i] == Coverage::reached && into.depth.pixels()[i] >= layer.depth.pixels()[i];
-        if (hidden) continue;
-        into.colour.pixels()[i] = layer.colour.pixels()[i];
-        into.depth.pixels()[i] = layer.depth.pixels()[i];
-        into.coverage.pixels()[i] = Coverage::reached;
-    }
-}
-
 // Before there was any picture.
 void show_nothing(glm::ivec2 size_px, DisplayFrame& frame) {
     frame.resize(size_px);
@@ -64,22 +50,26 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
         return display_frame_;
     }
     counters_ = {};
-    const Camera* first_camera = nullptr;
+    const Layer* first = nullptr;
     for (const auto& layer : frame.layers) {
         if (target.eye && layer->for_eye && *layer->for_eye != *target.eye) continue;
         if (!problem_of(layer->camera).empty()) {
             ++held_.bad_layer;
             continue;
         }
-        method_->warp(*layer, usable, first_camera != nullptr ? layer_frame_ : display_frame_);
+        if (first == nullptr) {
+            first = layer.get();
+            method_->warp(*layer, usable, display_frame_);
+            composition_.tint(*layer, display_frame_);
+        } else if (!composition_.add(*method_, *layer, *first, usable, display_frame_)) {
+            continue;
+        }
         WarpCounters of_layer = method_->counters();
         of_layer.bad_depth -= std::min(of_layer.bad_depth, layer->empty_pixels);  // they hold nothing, which is not bad
         counters_ += of_layer;
-        if (first_camera != nullptr) merge_nearest(layer_frame_, display_frame_);
-        if (first_camera == nullptr) first_camera = &layer->camera;
     }
-    if (first_camera != nullptr) {
-        fill_->apply(display_frame_, fill_guide(*first_camera, usable.camera));
+    if (first != nullptr) {
+        fill_->apply(display_frame_, fill_guide(first->camera, usable.camera));
     } else if (display_frame_.colour.size_px() != usable.camera.size_px) {
         show_nothing(usable.camera.size_px, display_frame_);
     }

@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "core/result.h"
 #include "warp_server/fill.h"
+#include "warp_server/layer_composition.h"
 #include "warp_server/picture_maker.h"
 #include "warp_server/warp_method.h"
 
@@ -48,6 +49,12 @@ public:
         return display_frame_;
     }
 
+    /// Shows which shell each pixel comes from, from the next picture on.
+    void set_false_colours(bool on) {
+        if (on != composition_.false_colours()) made_.layers.clear();
+        composition_.set_false_colours(on);
+    }
+
     [[nodiscard]] const WarpMethod& method() const { return *method_; }
     /// Share of unreached pixels of the last frame, before fill. Computed on demand from its coverage.
     [[nodiscard]] double hole_fraction() const { return lw::hole_fraction(display_frame_); }
@@ -71,7 +78,7 @@ private:
     std::unique_ptr<Fill> fill_;
     DisplayFrame display_frame_;
     Made made_;
-    DisplayFrame layer_frame_;  // scratch: second and further layers before they are merged
+    LayerComposition composition_;
     WarpCounters counters_;
     HeldInput held_;
     std::optional<Pose> good_head_;

@@ -2,16 +2,14 @@
 
 #include <algorithm>
 
+#include "warp_server/hole_attribution.h"
 #include "warp_server/photon_code.h"
 
 namespace lw {
 namespace {
 
-TimePoint oldest_pose_sampled(const RenderedFrame& frame) {
-    TimePoint oldest = frame.layers.front()->pose_sampled;
-    for (const auto& layer : frame.layers) oldest = std::min(oldest, layer->pose_sampled);
-    return oldest;
-}
+// Of the view. Other layers are as old as they may be: what is behind the head is seldom drawn.
+TimePoint view_pose_sampled(const RenderedFrame& frame) { return frame.layers.front()->pose_sampled; }
 
 }  // namespace
 
@@ -63,7 +61,7 @@ void ServerLoop::make_picture(const RenderedFrame& frame, const PacerPlan& plan,
     DisplayRecord record;
     record.refresh = plan.refresh.number;
     record.frame_index = frame.index;
-    record.frame_pose_sampled = oldest_pose_sampled(frame);
+    record.frame_pose_sampled = view_pose_sampled(frame);
     record.planned_wake = plan.wake;
     record.latched = timing.woken;
     record.scanout_begin = plan.refresh.scanout_begin;
@@ -87,6 +85,7 @@ void ServerLoop::make_picture(const RenderedFrame& frame, const PacerPlan& plan,
     }
     present(plan.refresh);
     record.presented = parts_.clock.now();
+    if (settings_.feedback != nullptr) report_holes(frame, target.camera, plan.refresh);
     record.cause = cause_of(record, timing);
 
     if (frame.index != last_frame_index_) ++frames_shown_;
@@ -117,6 +116,14 @@ void ServerLoop::present(const Refresh& slot) {
     } else {
         parts_.presenter.present_strip(parts_.warper.display_frame(), slot, strip_of(slot));
     }
+}
+
+// After the picture is out of the door: the client can wait, the display cannot.
+void ServerLoop::report_holes(const RenderedFrame& frame, const Camera& target, const Refresh& slot) {
+    HoleFeedback feedback;
+    feedback.shown = slot.scanout_begin;
+    attribute_holes(parts_.warper.display_frame(), frame, target, feedback);
+    settings_.feedback->offer(feedback);
 }
 
 WarpTarget ServerLoop::target_at(const Pose& world_from_head, const Refresh& slot) {

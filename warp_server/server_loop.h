@@ -11,6 +11,7 @@
 #include "core/clock.h"
 #include "frame_link/feeds.h"
 #include "frame_link/frame_exchange.h"
+#include "frame_link/hole_feedback.h"
 #include "frame_link/prediction.h"
 #include "warp_server/display_record.h"
 #include "warp_server/pacer.h"
@@ -42,6 +43,8 @@ struct ServerSettings {
     bool photon_codes = false;
     /// Called on the server's thread after every record; may be empty. What it does counts as the server's own work.
     std::function<void(const DisplayRecord&)> on_record;
+    /// Told of the holes of every picture; may be null. Outlives the loop.
+    HoleFeedbackLink* feedback = nullptr;
     /// Refreshes (with strips: strips) that can be written down before memory grows: the run's length times their rate.
     std::size_t reserved_refreshes = 4096;
     /// Processor time of the calling thread, to tell own work from time that the machine took away; null where the work
@@ -89,6 +92,7 @@ private:
     [[nodiscard]] WarpTarget target_at(const Pose& world_from_head, const Refresh& slot);
     [[nodiscard]] Strip strip_of(const Refresh& slot) const;
     void present(const Refresh& slot);
+    void report_holes(const RenderedFrame& frame, const Camera& target, const Refresh& slot);
     /// Writes down the refreshes before `number` that no picture was aimed at.
     void record_passed_over(const Refresh& aimed_at);
     void record_without_picture(const Refresh& refresh, TimePoint planned_wake, MissCause cause);

@@ -1,0 +1,374 @@
+#include "client_renderer/shell_client.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "client_renderer/hidden_layer.h"
+#include "core/check.h"
+
+namespace lw {
+namespace {
+
+constexpr std::size_t kMostShells = 4;
+// The distances around the viewer are taken from six small pictures of everything.
+constexpr int kProbePx = 64;
+// A part of the display is looked at by so many squared directions.
+constexpr int kDisplayProbes = 8;
+constexpr double kEnoughOfTheBudget = 0.92;  // costs vary: this much of it is planned with
+
+double pixel_count(const Camera& camera) { return static_cast<double>(camera.size_px.x) * camera.size_px.y; }
+
+void add(DrawCounters& sum, const DrawCounters& drawn) {
+    sum.objects_tested += drawn.objects_tested;
+    sum.objects_drawn += drawn.objects_drawn;
+    sum.triangles_drawn += drawn.triangles_drawn;
+    sum.draw_calls += drawn.draw_calls;
+    sum.objects_outside += drawn.objects_outside;
+    sum.objects_behind_walls += drawn.objects_behind_walls;
+    sum.objects_occluded += drawn.objects_occluded;
+    sum.objects_too_small += drawn.objects_too_small;
+    sum.clusters_tested += drawn.clusters_tested;
+    sum.clusters_outside += drawn.clusters_outside;
+    sum.clusters_turned_away += drawn.clusters_turned_away;
+    sum.clusters_occluded += drawn.clusters_occluded;
+    sum.clusters_too_small += drawn.clusters_too_small;
+    sum.culling += drawn.culling;
+}
+
+// A direction of a camera's picture, x and y in [0, 1] from its upper left corner.
+glm::dvec3 direction_at(const Camera& camera, double x, double y) {
+    const FovTangents& fov = camera.fov;
+    const glm::dvec3 ray{glm::mix(fov.left, fov.right, x), glm::mix(fov.up, fov.down, y), -1.0};
+    return camera.world_from_eye.orientation * ray;
+}
+
+Camera at_pose(Camera camera, const Pose& pose) {
+    camera.world_from_eye = pose;
+    return camera;
+}
+
+}  // namespace
+
+ShellClient::ShellClient(SceneRenderer& renderer, const Camera& display, const SourceSettings& source,
+                         const ShellSettings& settings, std::function<void(const std::shared_ptr<Layer>&)> prepare)
+    : renderer_{renderer},
+      display_{display},
+      source_{source},
+      settings_{settings},
+      prepare_{std::move(prepare)},
+      tiles_{display, settings.density, settings.tiles_per_side},
+      items_(1 + kMostShells * static_cast<std::size_t>(tiles_.count())),
+      costs_{items_.size()} {}
+
+// What an item is.
+
+std::size_t ShellClient::shell_of(std::size_t item) const {
+    return item == kView ? 0 : (item - 1) / static_cast<std::size_t>(tiles_.count());
+}
+
+int ShellClient::tile_of(std::size_t item) const {
+    LW_CHECK(item != kView, "the view is no tile");
+    return static_cast<int>((item - 1) % static_cast<std::size_t>(tiles_.count()));
+}
+
+std::string ShellClient::name_of(std::size_t item) const {
+    return item == kView ? "view" : fmt::format("shell{}-tile{:02}", shell_of(item), tile_of(item));
+}
+
+ScenePart ShellClient::part_of(std::size_t item) const {
+    const std::size_t shell = shell_of(item);
+    ScenePart part;
+    part.nearest_m = ranges_[shell].nearest_m;
+    part.farthest_m = ranges_[shell].farthest_m + ranges_[shell].overlap_m;
+    // Movers belong to the nearest shell at any distance: it is the one that is drawn often, they never cross a
+    // boundary, and what is drawn behind them stays whole.
+    part.movers = shell == 0;
+    part.sky = shell + 1 == ranges_.size();
+    return part;
+}
+
+Camera ShellClient::camera_of(std::size_t item, const ShellMoment& moment) const {
+    if (item == kView) return at_pose(moment.source, moment.shown_middle);
+    return tiles_.camera(tile_of(item), moment.shown_middle.position_m);
+}
+
+int ShellClient::samples_of(std::size_t item) const {
+    return shell_of(item) == 0 ? source_.samples_per_axis : settings_.samples_per_axis;
+}
+
+// Ranges and budget.
+
+std::vector<double> ShellClient::distances_around(const ShellMoment& moment) {
+    Camera small = display_;
+    small.size_px = glm::ivec2{kProbePx};
+    small.fov = {};
+    const ShellTiles faces{small, 1.0, 1};
+    std::vector<double> distances_m;
+    for (int face = 0; face < faces.count(); ++face) {
+        Layer layer;
+        layer.camera = faces.camera(face, moment.shown_middle.position_m);
+        renderer_.draw(layer.camera, moment.scene_time_s, layer.cpu());
+        const std::vector<double> seen_m = statistics_of(layer).ray_m;
+        distances_m.insert(distances_m.end(), seen_m.begin(), seen_m.end());
+    }
+    return distances_m;
+}
+
+void ShellClient::choose_ranges(const ShellMoment& moment) {
+    ShellRangeSettings settings;
+    settings.shells = settings_.shells;
+    settings.pixels_per_tangent = display_.size_px.y / (display_.fov.up - display_.fov.down);
+    const std::vector<ShellRange> wanted = shell_ranges(settings, distances_around(moment));
+    if (!ranges_outdated(ranges_, wanted)) return;
+    ranges_ = wanted;
+    for (std::size_t item = 0; item < items_.size(); ++item) {
+        items_[item].outdated = true;
+        if (item >= item_count()) items_[item] = {};
+    }
+}
+
+void ShellClient::learn_main_view(const ShellMoment& moment) {
+    Layer layer;
+    layer.camera = camera_of(kView, moment);
+    // The first draw of a size makes buffers.
+    for (int i = 0; i < (settings_.clock != nullptr ? 2 : 1); ++i) {
+        const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
+        renderer_.draw_resolved(layer.camera, moment.scene_time_s, source_.samples_per_axis, layer.cpu());
+        if (settings_.clock != nullptr) {
+            main_view_ms_per_pixel_ = to_ms(settings_.clock->now() - begin) / pixel_count(layer.camera);
+        }
+    }
+    main_view_triangles_ = static_cast<double>(renderer_.counters().triangles_drawn);
+    main_view_covered_ = statistics_of(layer).surface_px / pixel_count(layer.camera);
+}
+
+double ShellClient::budget_ms(const ShellMoment& moment) const {
+    if (settings_.budget_ms) return *settings_.budget_ms;
+    if (moment.main_view_ms) return *moment.main_view_ms;
+    if (settings_.clock != nullptr) return main_view_ms_per_pixel_ * pixel_count(moment.source);
+    const double samples = pixel_count(moment.source) * source_.samples_per_axis * source_.samples_per_axis;
+    return modelled_cost_ms(main_view_triangles_, samples, main_view_covered_ * samples);
+}
+
+// What is expected of an item.
+
+bool ShellClient::hidden_by_view(const glm::dvec3& direction_world) const {
+    const Layer* view = items_[kView].layer.get();
+    if (view == nullptr || !sees(view->camera, direction_world)) return false;
+    const glm::dvec3 ray = glm::conjugate(view->camera.world_from_eye.orientation) * direction_world;
+    const FovTangents& fov = view->camera.fov;
+    const glm::ivec2 size_px = view->camera.size_px;
+    const int x = static_cast<int>((ray.x / -ray.z - fov.left) / (fov.right - fov.left) * size_px.x);
+    const int y = static_cast<int>((fov.up - ray.y / -ray.z) / (fov.up - fov.down) * size_px.y);
+    return view->cpu().depth.at(std::clamp(x, 0, size_px.x - 1), std::clamp(y, 0, size_px.y - 1)) > 0.0F;
+}
+
+void ShellClient::judge_visibility(std::size_t item, const ShellMoment& moment, ItemOutlook& outlook) const {
+    const glm::dvec3 forward = moment.shown_middle.orientation * glm::dvec3{0.0, 0.0, -1.0};
+    if (item == kView) {
+        outlook.visible_share = 1.0;
+        return;
+    }
+    const Camera views[] = {at_pose(display_, moment.shown_from), at_pose(display_, moment.shown_middle),
+                            at_pose(display_, moment.shown_until)};
+    const Camera view = camera_of(kView, moment);
+    const bool nearest_shell = shell_of(item) == 0;
+    int visible = 0;
+    double least_cosine_angle = -1.0;
+    for (const glm::dvec3& direction : tiles_.probes(tile_of(item))) {
+        const bool seen =
+            std::any_of(std::begin(views), std::end(views), [&](const Camera& c) { return sees(c, direction); });
+        // The nearest shell's tiles stand in where its view ends, the others where it has nothing.
+        const bool shown_by_view = nearest_shell ? sees(view, direction) : hidden_by_view(direction);
+        if (!seen || shown_by_view) continue;
+        ++visible;
+        least_cosine_angle = std::max(least_cosine_angle, glm::dot(direction, forward));
+    }
+    outlook.visible_share = static_cast<double>(visible) / static_cast<double>(tiles_.probes(0).size());
+    if (visible == 0) least_cosine_angle = glm::dot(tiles_.middle(tile_of(item)), forward);
+    outlook.off_axis_rad = std::acos(std::clamp(least_cosine_angle, -1.0, 1.0));
+}
+
+double ShellClient::share_beyond_view(const ShellMoment& moment) const {
+    const Camera& drawn = items_[kView].layer->camera;
+    int beyond = 0;
+    for (const Pose& pose : {moment.shown_middle, moment.shown_until}) {
+        const Camera display = at_pose(display_, pose);
+        for (int y = 0; y < kDisplayProbes; ++y) {
+            for (int x = 0; x < kDisplayProbes; ++x) {
+                const glm::dvec3 direction =
+                    direction_at(display, (x + 0.5) / kDisplayProbes, (y + 0.5) / kDisplayProbes);
+                beyond += sees(drawn, direction) ? 0 : 1;
+            }
+        }
+    }
+    return beyond / (2.0 * kDisplayProbes * kDisplayProbes);
+}
+
+ItemOutlook ShellClient::outlook(std::size_t index, const ShellMoment& moment) const {
+    const Item& item = items_[index];
+    ItemOutlook outlook;
+    outlook.display_px = index == kView ? pixel_count(display_) : tiles_.display_pixels();
+    judge_visibility(index, moment, outlook);
+    outlook.is_view = index == kView;
+    outlook.drawn = item.layer != nullptr && !item.outdated;
+    if (!outlook.drawn) return outlook;
+    const LayerStatistics& drawn = item.statistics;
+    const double display_px_per_px = outlook.display_px / pixel_count(item.layer->camera);
+    const Pose& drawn_from = item.layer->camera.world_from_eye;
+    outlook.eye_moved_m = std::max(glm::distance(moment.shown_middle.position_m, drawn_from.position_m),
+                                   glm::distance(moment.shown_until.position_m, drawn_from.position_m));
+    outlook.gap_px_per_m = drawn.gap_px_per_m * display_px_per_px;
+    outlook.typical_m = drawn.typical_ray_m;
+    outlook.mover_px = drawn.mover_px * display_px_per_px;
+    outlook.age_s = moment.now_s - item.drawn_s;
+    if (settings_.hole_feedback) outlook.measured_holes_px = item.holes_px;
+    // The view is drawn from where the eye is, so the shell beyond it holds the overlap.
+    const std::size_t shell = shell_of(index);
+    if (index != kView && shell > 0) outlook.overlap_m = ranges_[shell - 1].overlap_m;
+    if (index == kView) outlook.beyond_edge_share = share_beyond_view(moment);
+    // Where the item holds nothing it cannot be wrong.
+    const double filled = drawn.filled_px / pixel_count(item.layer->camera);
+    outlook.display_px *= filled;
+    if (filled > 0.0 && index == kView) outlook.beyond_edge_share /= std::max(filled, 0.25);
+    return outlook;
+}
+
+double ShellClient::guessed_cost_ms(std::size_t item) const {
+    const double scale = item == kView ? 1.0 : 1.0 / (settings_.tiles_per_side * settings_.tiles_per_side);
+    const double samples = scale * pixel_count(display_) * samples_of(item) * samples_of(item);
+    return modelled_cost_ms(scale * main_view_triangles_, samples, main_view_covered_ * samples);
+}
+
+// Drawing.
+
+double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
+    const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
+    std::shared_ptr<Layer> layer = pool_.acquire();
+    layer->name = name_of(index);
+    layer->camera = camera_of(index, moment);
+    layer->pose_sampled = moment.pose_sampled;
+    layer->scene_time_s = moment.scene_time_s;
+    const ScenePart part = part_of(index);
+    const int samples = samples_of(index);
+    renderer_.set_reveal_margin(std::max(moment.head_motion_m, index == kView ? 0.0 : ranges_[0].overlap_m));
+    layer->empty_pixels = renderer_.draw_part(layer->camera, layer->scene_time_s, samples, part, layer->cpu());
+    add(counters_, renderer_.counters());
+    auto triangles = static_cast<double>(renderer_.counters().triangles_drawn);
+    renderer_.mover_placements(layer->scene_time_s, layer->movers);
+    Item& item = items_[index];
+    item.statistics = statistics_of(*layer);
+    layer->content = {static_cast<std::uint32_t>(index), static_cast<std::uint16_t>(shell_of(index)),
+                      item.statistics.mover_px == 0.0, item.statistics.nearest_depth, item.statistics.nearest_ray_m};
+    double covered = item.statistics.surface_px;
+    double pixels = pixel_count(layer->camera);
+    if (index == kView && source_.layers == 2) {
+        const std::shared_ptr<Layer> hidden = draw_hidden(*layer, moment);
+        add(counters_, renderer_.counters());
+        triangles += static_cast<double>(renderer_.counters().triangles_drawn);
+        pixels *= 2.0;
+        covered += pixel_count(hidden->camera) - static_cast<double>(hidden->empty_pixels);
+        item.hidden = hidden;
+    }
+    double cost_ms = modelled_cost_ms(triangles, pixels * samples * samples, covered * samples * samples);
+    if (settings_.clock != nullptr) cost_ms = to_ms(settings_.clock->now() - begin);
+    if (prepare_) prepare_(layer);
+    item.layer = std::move(layer);
+    item.drawn_s = moment.now_s;
+    item.outdated = false;
+    item.holes_px = 0.0;
+    item.hole_frames = 0.0;
+    costs_.learn(index, cost_ms);
+    return cost_ms;
+}
+
+std::shared_ptr<Layer> ShellClient::draw_hidden(const Layer& first, const ShellMoment& moment) {
+    std::shared_ptr<Layer> hidden = pool_.acquire();
+    draw_hidden_layer(renderer_, first, source_.samples_per_axis, moment.head_motion_m, *hidden, part_of(kView));
+    hidden->content.item = kView;
+    if (prepare_) prepare_(hidden);
+    return hidden;
+}
+
+void ShellClient::warm_up(const ShellMoment& moment) {
+    learn_main_view(moment);
+    choose_ranges(moment);
+    for (std::size_t item = 0; item < item_count(); ++item) (void)draw_item(item, moment);
+}
+
+void ShellClient::take(const HoleFeedback& feedback) {
+    if (feedback.display_frames == 0) return;
+    const double frames = feedback.display_frames;
+    for (std::size_t i = 0; i < item_count(); ++i) {
+        Item& item = items_[i];
+        const double holes = i < feedback.holes_px.size() ? feedback.holes_px[i] : 0.0;
+        item.holes_px = (item.holes_px * item.hole_frames + holes) / (item.hole_frames + frames);
+        item.hole_frames += frames;
+    }
+}
+
+std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& moment) {
+    if (ranges_.empty()) warm_up(moment);
+    counters_ = {};
+    ShellFrameRecord record;
+    record.now_s = moment.now_s;
+    record.budget_ms = budget_ms(moment);
+    std::vector<DrawCandidate> candidates;
+    std::vector<PredictedError> errors(item_count());
+    for (std::size_t i = 0; i < item_count(); ++i) {
+        const ItemOutlook item = outlook(i, moment);
+        errors[i] = predicted_error(item, settings_.weights);
+        const double expected_ms = costs_.expected_ms(i, guessed_cost_ms(i));
+        record.all_ms += expected_ms;
+        // What nobody sees may wait.
+        const double waiting_s = item.visible_share > 0.0 ? item.age_s : 0.0;
+        candidates.push_back({i, errors[i].sum() * error_weight(item, settings_.weights), expected_ms, waiting_s});
+    }
+    BudgetSettings budget{kEnoughOfTheBudget * record.budget_ms};
+    budget.max_age_s = settings_.max_age_s;
+    for (const DrawCandidate& candidate : candidates) {
+        record.invalid += candidate.priority >= budget.least_error_px ? 1 : 0;
+    }
+    for (const std::size_t index : choose_items(candidates, budget)) {
+        // What was drawn may have cost more than expected.
+        const bool fits = record.spent_ms + candidates[index].cost_ms <= record.budget_ms;
+        if (!record.draws.empty() && !fits) continue;
+        const double age_s = items_[index].layer != nullptr ? moment.now_s - items_[index].drawn_s : 0.0;
+        const double cost_ms = draw_item(index, moment);
+        record.spent_ms += cost_ms;
+        record.draws.push_back({static_cast<std::uint32_t>(index), name_of(index), errors[index].reason(),
+                                candidates[index].priority, cost_ms, age_s});
+    }
+    records_.push_back(std::move(record));
+    return layers();
+}
+
+// Tiles of the nearest shell stand in for the view past its edge; within it they would only be older. Of the others the
+// server leaves out what is not in view.
+bool ShellClient::is_shown(std::size_t index) const {
+    const Item& item = items_[index];
+    if (item.layer == nullptr) return false;
+    if (index == kView) return true;
+    if (item.statistics.filled_px == 0.0) return false;
+    if (shell_of(index) > 0) return true;
+    const ShellTiles::Probes& probes = tiles_.probes(tile_of(index));
+    return std::any_of(probes.begin(), probes.end(),
+                       [&](const glm::dvec3& direction) { return !sees(items_[kView].layer->camera, direction); });
+}
+
+std::vector<std::shared_ptr<const Layer>> ShellClient::layers() const {
+    std::vector<std::shared_ptr<const Layer>> layers{items_[kView].layer};
+    if (items_[kView].hidden != nullptr) layers.push_back(items_[kView].hidden);
+    const std::size_t first_outer = 1 + static_cast<std::size_t>(tiles_.count());
+    const auto append = [&](std::size_t first, std::size_t end) {
+        for (std::size_t i = first; i < end; ++i) {
+            if (is_shown(i)) layers.push_back(items_[i].layer);
+        }
+    };
+    append(first_outer, item_count());
+    append(1, std::min(first_outer, item_count()));
+    return layers;
+}
+
+}  // namespace lw

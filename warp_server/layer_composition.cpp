@@ -1,0 +1,69 @@
+#include "warp_server/layer_composition.h"
+
+#include <array>
+
+#include "warp_server/methods/homography_resample.h"
+
+namespace lw {
+namespace {
+
+// Two pictures of one surface, taken from different places, differ in depth by what a pixel covers. Things that lie
+// closer together than this hardly shift against each other.
+constexpr float kSameSurface = 0.005F;
+
+constexpr std::array<Rgba8, 4> kShellColours{{{230, 60, 50}, {60, 180, 75}, {50, 110, 230}, {230, 190, 40}}};
+
+Rgba8 mixed(Rgba8 a, Rgba8 b) {
+    const auto half = [](int x, int y) { return static_cast<std::uint8_t>((x + y) / 2); };
+    return {half(a.r, b.r), half(a.g, b.g), half(a.b, b.b), a.a};
+}
+
+Rgba8 colour_of(const Layer& layer) { return kShellColours[layer.content.shell % kShellColours.size()]; }
+
+void merge_nearest(const DisplayFrame& layer, glm::ivec2 at_px, DisplayFrame& into) {
+    for (int y = 0; y < layer.depth.height(); ++y) {
+        const std::span<const Coverage> coverage = layer.coverage.row(y);
+        const std::span<const float> depth = layer.depth.row(y);
+        const std::span<const Rgba8> colour = layer.colour.row(y);
+        const auto first = static_cast<std::size_t>(at_px.x);
+        const std::span<Coverage> into_coverage = into.coverage.row(at_px.y + y).subspan(first, coverage.size());
+        const std::span<float> into_depth = into.depth.row(at_px.y + y).subspan(first, depth.size());
+        const std::span<Rgba8> into_colour = into.colour.row(at_px.y + y).subspan(first, colour.size());
+        for (std::size_t x = 0; x < coverage.size(); ++x) {
+            if (coverage[x] != Coverage::reached) continue;
+            const bool hidden =
+                into_coverage[x] == Coverage::reached && into_depth[x] >= depth[x] * (1.0F - kSameSurface);
+            if (hidden) continue;
+            into_colour[x] = colour[x];
+            into_depth[x] = depth[x];
+            into_coverage[x] = Coverage::reached;
+        }
+    }
+}
+
+}  // namespace
+
+bool LayerComposition::add(WarpMethod& method, const Layer& layer, const Layer& view, const WarpTarget& target,
+                           DisplayFrame& into) {
+    PixelRect rect = reach_of(layer, target.camera);
+    if (rect.empty()) return false;
+    if (layer.content.shell == 0 && layer.content.item != view.content.item) {
+        const ViewCover cover{background_source_from_target(view.camera, target.camera), view.camera.size_px};
+        rect = missing_in(into, rect, 1.0F, cover);
+    } else if (layer.content.static_only) {
+        rect = missing_in(into, rect, nearest_target_depth(layer, target.camera));
+    }
+    if (rect.empty()) return false;
+    const bool all = rect.size_px() == target.camera.size_px;
+    method.warp(layer, all ? target : WarpTarget{part_of(target.camera, rect), target.movers, target.eye}, scratch_);
+    if (false_colours_) tint(layer, scratch_);
+    merge_nearest(scratch_, rect.first_px, into);
+    return true;
+}
+
+void LayerComposition::tint(const Layer& layer, DisplayFrame& frame) const {
+    if (!false_colours_) return;
+    for (Rgba8& colour : frame.colour.pixels()) colour = mixed(colour, colour_of(layer));
+}
+
+}  // namespace lw

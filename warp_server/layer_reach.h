@@ -1,0 +1,48 @@
+#pragma once
+/// Which part of a display frame a layer can show something in.
+
+#include <glm/glm.hpp>
+
+#include "core/camera.h"
+#include "warp_server/warp_method.h"
+
+namespace lw {
+
+/// Columns and rows of a picture: [first, end).
+struct PixelRect {
+    glm::ivec2 first_px{0};
+    glm::ivec2 end_px{0};
+
+    [[nodiscard]] bool empty() const { return first_px.x >= end_px.x || first_px.y >= end_px.y; }
+    [[nodiscard]] glm::ivec2 size_px() const { return end_px - first_px; }
+};
+
+/// The pixels of `target` that the layer's picture may reach: its frustum from its nearest depth to infinity, moved.
+/// The whole target for a layer that may hold movers. Pure, any thread.
+[[nodiscard]] PixelRect reach_of(const Layer& layer, const Camera& target);
+
+/// No surface of a layer is nearer to the target than the depth returned; 1 where nothing is promised
+/// (LayerContent::nearest_ray_m). Pure, any thread.
+[[nodiscard]] float nearest_target_depth(const Layer& layer, const Camera& target);
+
+/// What another picture, the view, shows of a target: directions are compared as if the eyes stood in one place.
+struct ViewCover {
+    glm::mat3 view_from_target{1.0F};  ///< background_source_from_target()
+    glm::vec2 size_px{0.0F};           ///< of the view; 0: it covers nothing
+
+    [[nodiscard]] bool covers(int x, int y) const {
+        const glm::vec3 h =
+            view_from_target * glm::vec3{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, 1.0F};
+        return h.z > 0.0F && h.x >= 0.0F && h.y >= 0.0F && h.x < size_px.x * h.z && h.y < size_px.y * h.z;
+    }
+};
+
+/// The smallest part of `rect` outside of which `frame` shows in every pixel something that is at least as near as
+/// `nearest_depth`, or something at all where the view covers it. Pure, any thread.
+[[nodiscard]] PixelRect missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth,
+                                   const ViewCover& view = {});
+
+/// The part of a camera's picture in `rect`, which is not empty. Pure, any thread.
+[[nodiscard]] Camera part_of(const Camera& camera, const PixelRect& rect);
+
+}  // namespace lw

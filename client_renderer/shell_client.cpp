@@ -15,6 +15,10 @@ constexpr std::size_t kMostShells = 4;
 constexpr int kProbePx = 64;
 // A part of the display is looked at by so many squared directions.
 constexpr int kDisplayProbes = 8;
+// Of the budget: the view is drawn with less around and behind it where it would take more, outer tiles with fewer
+// samples.
+constexpr double kMostForTheView = 0.8;
+constexpr double kMostForATile = 0.5;
 constexpr double kEnoughOfTheBudget = 0.92;  // costs vary: this much of it is planned with
 
 double pixel_count(const Camera& camera) { return static_cast<double>(camera.size_px.x) * camera.size_px.y; }
@@ -59,7 +63,7 @@ ShellClient::ShellClient(SceneRenderer& renderer, const Camera& display, const S
       prepare_{std::move(prepare)},
       tiles_{display, settings.density, settings.tiles_per_side},
       items_(1 + kMostShells * static_cast<std::size_t>(tiles_.count())),
-      costs_{items_.size()} {}
+      costs_{items_.size() + kViewPlans.size()} {}
 
 // What an item is.
 
@@ -89,12 +93,53 @@ ScenePart ShellClient::part_of(std::size_t item) const {
 }
 
 Camera ShellClient::camera_of(std::size_t item, const ShellMoment& moment) const {
-    if (item == kView) return at_pose(moment.source, moment.shown_middle);
+    if (item == kView) {
+        const bool band = kViewPlans[plan_].guard_band;
+        return at_pose(band ? moment.source : source_camera(display_, source_.density, 0.0), moment.shown_middle);
+    }
     return tiles_.camera(tile_of(item), moment.shown_middle.position_m);
 }
 
 int ShellClient::samples_of(std::size_t item) const {
-    return shell_of(item) == 0 ? source_.samples_per_axis : settings_.samples_per_axis;
+    return shell_of(item) == 0 ? source_.samples_per_axis : outer_samples_;
+}
+
+// What the view costs.
+
+double ShellClient::guessed_view_ms(const ViewPlan& plan, const ShellMoment& moment) const {
+    const Camera plain = source_camera(display_, source_.density, 0.0);
+    const double layers = plan.hidden ? 2.0 : 1.0;
+    const double samples =
+        pixel_count(plan.guard_band ? moment.source : plain) * source_.samples_per_axis * source_.samples_per_axis;
+    // Of a hidden layer few pixels hold something.
+    return modelled_cost_ms(layers * main_view_triangles_, layers * samples,
+                            (plan.hidden ? 1.2 : 1.0) * main_view_covered_ * samples);
+}
+
+double ShellClient::expected_view_ms(std::size_t plan, const ShellMoment& moment) const {
+    const double guess_ms = guessed_view_ms(kViewPlans[plan], moment);
+    if (costs_.knows(items_.size() + plan)) return costs_.expected_ms(items_.size() + plan, guess_ms);
+    // What another plan cost says how much of everything is near.
+    for (std::size_t known = 0; known < kViewPlans.size(); ++known) {
+        if (!costs_.knows(items_.size() + known)) continue;
+        return costs_.expected_ms(items_.size() + known, 0.0) * guess_ms / guessed_view_ms(kViewPlans[known], moment);
+    }
+    return guess_ms;
+}
+
+void ShellClient::plan_view(const ShellMoment& moment, double budget_ms) {
+    plan_ = kViewPlans.size() - 1;
+    for (std::size_t plan = 0; plan < kViewPlans.size(); ++plan) {
+        if (kViewPlans[plan].hidden && source_.layers < 2) continue;
+        if (expected_view_ms(plan, moment) > kMostForTheView * budget_ms) continue;
+        plan_ = plan;
+        return;
+    }
+}
+
+void ShellClient::choose_samples(double budget_ms) {
+    outer_samples_ = settings_.samples_per_axis;
+    while (outer_samples_ > 1 && guessed_cost_ms(item_count() - 1) > kMostForATile * budget_ms) outer_samples_ /= 2;
 }
 
 // Ranges and budget.
@@ -263,7 +308,8 @@ double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
                       item.statistics.mover_px == 0.0, item.statistics.nearest_depth, item.statistics.nearest_ray_m};
     double covered = item.statistics.surface_px;
     double pixels = pixel_count(layer->camera);
-    if (index == kView && source_.layers == 2) {
+    if (index == kView) item.hidden = nullptr;
+    if (index == kView && source_.layers == 2 && kViewPlans[plan_].hidden) {
         const std::shared_ptr<Layer> hidden = draw_hidden(*layer, moment);
         add(counters_, renderer_.counters());
         triangles += static_cast<double>(renderer_.counters().triangles_drawn);
@@ -279,7 +325,7 @@ double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
     item.outdated = false;
     item.holes_px = 0.0;
     item.hole_frames = 0.0;
-    costs_.learn(index, cost_ms);
+    costs_.learn(cost_index(index), cost_ms);
     return cost_ms;
 }
 
@@ -294,6 +340,8 @@ std::shared_ptr<Layer> ShellClient::draw_hidden(const Layer& first, const ShellM
 void ShellClient::warm_up(const ShellMoment& moment) {
     learn_main_view(moment);
     choose_ranges(moment);
+    choose_samples(budget_ms(moment));
+    plan_ = source_.layers == 2 ? 0 : 2;
     for (std::size_t item = 0; item < item_count(); ++item) (void)draw_item(item, moment);
 }
 
@@ -314,12 +362,14 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
     ShellFrameRecord record;
     record.now_s = moment.now_s;
     record.budget_ms = budget_ms(moment);
+    plan_view(moment, record.budget_ms);
     std::vector<DrawCandidate> candidates;
     std::vector<PredictedError> errors(item_count());
     for (std::size_t i = 0; i < item_count(); ++i) {
         const ItemOutlook item = outlook(i, moment);
         errors[i] = predicted_error(item, settings_.weights);
-        const double expected_ms = costs_.expected_ms(i, guessed_cost_ms(i));
+        const double expected_ms =
+            i == kView ? expected_view_ms(plan_, moment) : costs_.expected_ms(i, guessed_cost_ms(i));
         record.all_ms += expected_ms;
         // What nobody sees may wait.
         const double waiting_s = item.visible_share > 0.0 ? item.age_s : 0.0;

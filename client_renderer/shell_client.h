@@ -2,6 +2,7 @@
 /// A client whose frames consist of shells: the scene in distance ranges around the viewer, each an image or more of
 /// its own, drawn again only when it has become wrong (--shells). docs/shells.md explains it with a figure.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -58,6 +59,12 @@ struct ShellFrameRecord {
     std::vector<ShellDraw> draws;
 };
 
+/// How much is drawn of the view: what the budget allows.
+struct ViewPlan {
+    bool guard_band = true;
+    bool hidden = true;
+};
+
 /// Belongs to the renderer's thread. Equal calls in equal order give equal frames where costs are modelled.
 class ShellClient {
 public:
@@ -103,6 +110,16 @@ private:
     [[nodiscard]] Camera camera_of(std::size_t item, const ShellMoment& moment) const;
     [[nodiscard]] int samples_of(std::size_t item) const;
 
+    /// From best to cheapest.
+    static constexpr std::array<ViewPlan, 4> kViewPlans{{{true, true}, {false, true}, {true, false}, {false, false}}};
+    void plan_view(const ShellMoment& moment, double budget_ms);
+    void choose_samples(double budget_ms);
+    [[nodiscard]] double expected_view_ms(std::size_t plan, const ShellMoment& moment) const;
+    [[nodiscard]] double guessed_view_ms(const ViewPlan& plan, const ShellMoment& moment) const;
+    [[nodiscard]] std::size_t cost_index(std::size_t item) const {
+        return item == kView ? items_.size() + plan_ : item;
+    }
+
     void choose_ranges(const ShellMoment& moment);
     void learn_main_view(const ShellMoment& moment);
     [[nodiscard]] double budget_ms(const ShellMoment& moment) const;
@@ -128,6 +145,8 @@ private:
     ShellTiles tiles_;
     LayerPool pool_;
     std::vector<ShellRange> ranges_;
+    int outer_samples_ = 1;  ///< per axis
+    std::size_t plan_ = 0;   ///< of the view being drawn, index in kViewPlans
     std::vector<Item> items_;
     CostBook costs_;
     double main_view_triangles_ = 0.0;     ///< of one view of everything, at the start

@@ -11,6 +11,9 @@ namespace {
 // closer together than this hardly shift against each other.
 constexpr float kSameSurface = 0.005F;
 
+// Of the target's pixels: fewer are left to the fill rather than to an old tile, which costs as many patches as it has.
+constexpr double kWorthATile = 0.002;
+
 constexpr std::array<Rgba8, 4> kShellColours{{{230, 60, 50}, {60, 180, 75}, {50, 110, 230}, {230, 190, 40}}};
 
 Rgba8 mixed(Rgba8 a, Rgba8 b) {
@@ -47,13 +50,18 @@ bool LayerComposition::add(WarpMethod& method, const Layer& layer, const Layer& 
                            DisplayFrame& into) {
     PixelRect rect = reach_of(layer, target.camera);
     if (rect.empty()) return false;
-    if (layer.content.shell == 0 && layer.content.item != view.content.item) {
+    const bool beside_view = layer.content.shell == 0 && layer.content.item != view.content.item;
+    if (beside_view) {
         const ViewCover cover{background_source_from_target(view.camera, target.camera), view.camera.size_px};
-        rect = missing_in(into, rect, 1.0F, cover);
+        const MissingPixels missing = missing_in(into, rect, 1.0F, cover);
+        const auto pixels = static_cast<double>(target.camera.size_px.x) * target.camera.size_px.y;
+        if (static_cast<double>(missing.count) < kWorthATile * pixels) return false;
+        rect = missing.rect;
     } else if (layer.content.static_only) {
-        rect = missing_in(into, rect, nearest_target_depth(layer, target.camera));
+        const MissingPixels missing = missing_in(into, rect, nearest_target_depth(layer, target.camera));
+        if (missing.count == 0) return false;
+        rect = missing.rect;
     }
-    if (rect.empty()) return false;
     const bool all = rect.size_px() == target.camera.size_px;
     method.warp(layer, all ? target : WarpTarget{part_of(target.camera, rect), target.movers, target.eye}, scratch_);
     if (false_colours_) tint(layer, scratch_);

@@ -84,22 +84,23 @@ float nearest_target_depth(const Layer& layer, const Camera& target) {
     return distance_m <= target.near_m ? 1.0F : static_cast<float>(target.near_m / distance_m);
 }
 
-PixelRect missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth, const ViewCover& view) {
-    PixelRect missing{rect.end_px, rect.first_px};
+MissingPixels missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth, const ViewCover& view) {
+    MissingPixels missing{{rect.end_px, rect.first_px}, 0};
     for (int y = rect.first_px.y; y < rect.end_px.y; ++y) {
         const std::span<const Coverage> coverage = frame.coverage.row(y);
         const std::span<const float> depth = frame.depth.row(y);
-        const auto shown = [&](int x) {
+        int first = rect.end_px.x;
+        int last = -1;
+        for (int x = rect.first_px.x; x < rect.end_px.x; ++x) {
             const auto i = static_cast<std::size_t>(x);
-            return coverage[i] == Coverage::reached && (depth[i] >= nearest_depth || view.covers(x, y));
-        };
-        int first = rect.first_px.x;
-        while (first < rect.end_px.x && shown(first)) ++first;
-        if (first == rect.end_px.x) continue;
-        int last = rect.end_px.x - 1;
-        while (shown(last)) --last;
-        missing.first_px = glm::min(missing.first_px, glm::ivec2{first, y});
-        missing.end_px = glm::max(missing.end_px, glm::ivec2{last + 1, y + 1});
+            if (coverage[i] == Coverage::reached && (depth[i] >= nearest_depth || view.covers(x, y))) continue;
+            first = std::min(first, x);
+            last = x;
+            ++missing.count;
+        }
+        if (last < 0) continue;
+        missing.rect.first_px = glm::min(missing.rect.first_px, glm::ivec2{first, y});
+        missing.rect.end_px = glm::max(missing.rect.end_px, glm::ivec2{last + 1, y + 1});
     }
     return missing;
 }

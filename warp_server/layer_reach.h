@@ -1,6 +1,7 @@
 #pragma once
 /// Which part of a display frame a layer can show something in.
 
+#include <cstddef>
 #include <glm/glm.hpp>
 
 #include "core/camera.h"
@@ -37,10 +38,16 @@ struct ViewCover {
     }
 };
 
-/// The smallest part of `rect` outside of which `frame` shows in every pixel something that is at least as near as
-/// `nearest_depth`, or something at all where the view covers it. Pure, any thread.
-[[nodiscard]] PixelRect missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth,
-                                   const ViewCover& view = {});
+/// What a display frame lacks in a part of it.
+struct MissingPixels {
+    PixelRect rect;  ///< the smallest that holds them all
+    std::size_t count = 0;
+};
+
+/// The pixels of `frame` in `rect` that show nothing, or something farther than `nearest_depth` where the view does not
+/// cover them. Pure, any thread.
+[[nodiscard]] MissingPixels missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth,
+                                       const ViewCover& view = {});
 
 /// The part of a camera's picture in `rect`, which is not empty. Pure, any thread.
 [[nodiscard]] Camera part_of(const Camera& camera, const PixelRect& rect);

@@ -53,7 +53,11 @@ bool LayerComposition::add(WarpMethod& method, const Layer& layer, const Layer& 
     const bool beside_view = layer.content.shell == 0 && layer.content.item != view.content.item;
     if (beside_view) {
         const ViewCover cover{background_source_from_target(view.camera, target.camera), view.camera.size_px};
-        const MissingPixels missing = missing_in(into, rect, 1.0F, cover);
+        // A view that covers the corners covers all between them: then only holes count, and no pixel need be asked.
+        const glm::ivec2 last = target.camera.size_px - 1;
+        const bool covers_all =
+            cover.covers(0, 0) && cover.covers(last.x, 0) && cover.covers(0, last.y) && cover.covers(last.x, last.y);
+        const MissingPixels missing = missing_in(into, rect, covers_all ? 0.0F : 1.0F, cover);
         const auto pixels = static_cast<double>(target.camera.size_px.x) * target.camera.size_px.y;
         if (static_cast<double>(missing.count) < kWorthATile * pixels) return false;
         rect = missing.rect;

@@ -13,11 +13,11 @@ struct ImageErrors {
     double ssim = 1.0;
     std::optional<double> psnr_db;    ///< nothing for a picture equal to the truth
     double hole_fraction = 0.0;       ///< unreached pixels before fill, counted by the warp
-    double behind_fraction = 0.0;     ///< pixels that show what lies behind the surface that belongs there
     AttributedError attribution{};    ///< of FLIP, whose sum it is; zero where causes are not known
     std::optional<double> flicker{};  ///< against the display frame before; nothing for the first
     std::optional<double>
-        ssim_to_same{};  ///< against `fresh-same` instead of the truth; nothing where it was not asked
+        ssim_to_same{};            ///< against `fresh-same` instead of the truth; nothing where it was not asked
+    double behind_fraction = 0.0;  ///< pixels that show what lies behind the surface that belongs there
 };
 
 /// FLIP, SSIM and PSNR of `shown` against `truth` (equal sizes); the hole fraction stays 0, flicker empty. Pure, any

@@ -15,8 +15,6 @@ constexpr std::size_t kMostShells = 4;
 constexpr int kProbePx = 64;
 // A part of the display is looked at by so many squared directions.
 constexpr int kDisplayProbes = 8;
-// Tangents of the field of view are taken so much larger where a turn that nobody predicted must find something.
-constexpr double kUnforeseenTurn = 1.5;
 // Of the budget: the view is drawn with less around and behind it where it would take more, outer tiles with fewer
 // samples.
 constexpr double kMostForTheView = 0.8;
@@ -393,35 +391,30 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
                                 candidates[index].priority, cost_ms, age_s});
     }
     records_.push_back(std::move(record));
-    return layers(moment);
+    return layers();
 }
 
 // Tiles of the nearest shell stand in for the view past its edge; within it they would only be older. Of the others the
 // server leaves out what is not in view.
-bool ShellClient::is_shown(std::size_t index, const ShellMoment& moment) const {
+bool ShellClient::is_shown(std::size_t index) const {
     const Item& item = items_[index];
     if (item.layer == nullptr) return false;
     if (index == kView) return true;
     if (item.statistics.filled_px == 0.0) return false;
     if (shell_of(index) > 0) return true;
-    Camera wider = display_;
-    wider.fov = {kUnforeseenTurn * display_.fov.left, kUnforeseenTurn * display_.fov.right,
-                 kUnforeseenTurn * display_.fov.down, kUnforeseenTurn * display_.fov.up};
-    const Camera looks[] = {at_pose(wider, moment.shown_from), at_pose(wider, moment.shown_until)};
+    // Wherever the head may turn: predictions of a fast turn were seen to be off by more than 20 degrees.
     const ShellTiles::Probes& probes = tiles_.probes(tile_of(index));
-    return std::any_of(probes.begin(), probes.end(), [&](const glm::dvec3& direction) {
-        return !sees(items_[kView].layer->camera, direction) &&
-               (sees(looks[0], direction) || sees(looks[1], direction));
-    });
+    return std::any_of(probes.begin(), probes.end(),
+                       [&](const glm::dvec3& direction) { return !sees(items_[kView].layer->camera, direction); });
 }
 
-std::vector<std::shared_ptr<const Layer>> ShellClient::layers(const ShellMoment& moment) const {
+std::vector<std::shared_ptr<const Layer>> ShellClient::layers() const {
     std::vector<std::shared_ptr<const Layer>> layers{items_[kView].layer};
     if (items_[kView].hidden != nullptr) layers.push_back(items_[kView].hidden);
     const std::size_t first_outer = 1 + static_cast<std::size_t>(tiles_.count());
     const auto append = [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {
-            if (is_shown(i, moment)) layers.push_back(items_[i].layer);
+            if (is_shown(i)) layers.push_back(items_[i].layer);
         }
     };
     append(first_outer, item_count());

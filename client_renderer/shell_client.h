@@ -133,9 +133,9 @@ private:
 
     double draw_item(std::size_t item, const ShellMoment& moment);
     std::shared_ptr<Layer> draw_hidden(const Layer& first, const ShellMoment& moment);
-    [[nodiscard]] bool is_shown(std::size_t item, const ShellMoment& moment) const;
+    [[nodiscard]] bool is_shown(std::size_t item) const;
     /// The view, what it hides, the outer shells, and the nearest shell's tiles last: they fill what is left.
-    [[nodiscard]] std::vector<std::shared_ptr<const Layer>> layers(const ShellMoment& moment) const;
+    [[nodiscard]] std::vector<std::shared_ptr<const Layer>> layers() const;
 
     SceneRenderer& renderer_;
     Camera display_;

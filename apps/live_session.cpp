@@ -438,6 +438,11 @@ void LiveSession::draw_until_stopped(SceneRenderer& renderer) {
     client_loop_->run();
     result_.app_frames = client_loop_->records();
     result_.shells = client_loop_->shell_records();
+    if (options_.shells.on) {
+        for (const ClientFrameRecord& frame : result_.app_frames) {
+            result_.source_views.push_back({frame.view, frame.scene_time_s});
+        }
+    }
     result_.app_failure = client_loop_->failure();
     if (!result_.app_failure.empty()) {
         print_warnings({fmt::format("the client stopped ({}): its last frame stays", result_.app_failure)}, false);

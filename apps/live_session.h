@@ -37,7 +37,7 @@ struct LiveResult {
     StealWatch steal;
     std::string app_failure;  ///< what ended the client early; empty if nothing did
     std::vector<ClientFrameRecord> app_frames;
-    std::vector<SourceView> source_views;  ///< of rendered frame i + 1; none where frames consist of shells
+    std::vector<SourceView> source_views;  ///< of rendered frame i + 1: its first layer
     std::vector<ShellFrameRecord> shells;  ///< none without shells
     std::uint64_t app_frames_shown = 0;
     std::uint64_t bad_head_poses = 0;

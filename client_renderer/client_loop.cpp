@@ -144,7 +144,8 @@ void ClientLoop::draw_and_publish_shells() {
     }
     frame->index = records_.size() + 1;
     frame->times.published = clock_.now();
-    const ClientFrameRecord record{frame->index, frame->times, shells_->counters()};
+    const Layer& view = *frame->layers.front();
+    const ClientFrameRecord record{frame->index, frame->times, shells_->counters(), view.camera, view.scene_time_s};
     exchange_.publish(std::move(frame));
     learn_timing(sampled, record.times.published);
     records_.push_back(record);

@@ -43,6 +43,8 @@ struct ClientFrameRecord {
     std::uint64_t index = 0;
     RenderTimes times;
     DrawCounters counters;
+    Camera view;                ///< of its first layer
+    double scene_time_s = 0.0;  ///< of its first layer
 };
 
 /// Runs on the thread that calls run(), with the renderer's context current there.

@@ -24,6 +24,7 @@
 #include <memory>
 #include <string>
 
+#include "bench/run_benchmarks.h"
 #include "client_renderer/hidden_layer.h"
 #include "client_renderer/scene_renderer.h"
 #include "core/check.h"
@@ -285,9 +286,5 @@ void register_all() {
 
 int main(int argc, char** argv) {
     lw::bench::register_all();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return lw::bench::run_benchmarks(argc, argv);
 }

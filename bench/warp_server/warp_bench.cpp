@@ -13,6 +13,7 @@
 #include <functional>
 #include <string>
 
+#include "bench/run_benchmarks.h"
 #include "bench/warp_server/half_covered_layer.h"
 #include "core/check.h"
 #include "gl/context.h"
@@ -196,9 +197,5 @@ void register_all() {
 
 int main(int argc, char** argv) {
     lw::bench::register_all();
-    benchmark::Initialize(&argc, argv);
-    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-    benchmark::RunSpecifiedBenchmarks();
-    benchmark::Shutdown();
-    return 0;
+    return lw::bench::run_benchmarks(argc, argv);
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Groups of options that have a file of their own, apps/options_<subject>.cpp.
+/// Groups of options that have a file of their own, apps/options_<subject>.cpp, and checks over all of them.
 
 #include "core/result.h"
 
@@ -28,5 +28,11 @@ void declare_billboards(Declarer& declare);
 void declare_stereo(Declarer& declare);
 /// What of them does not go together.
 [[nodiscard]] Status check_stereo(const Options& options);
+
+/// What of all of them does not go together, and limits that concern two at once.
+[[nodiscard]] Status check_together(const Options& options);
+
+/// Of a subcommand that runs client, server and display at once.
+[[nodiscard]] bool is_live(const Options& options);
 
 }  // namespace lw

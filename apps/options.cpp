@@ -455,65 +455,6 @@ Result<CommandLine> parse(const std::vector<std::string>& arguments) {
     return command_line;
 }
 
-bool is_live(Subcommand subcommand) { return subcommand == Subcommand::demo || subcommand == Subcommand::measure; }
-
-/// The options of --method auto come together or not at all.
-Status check_autotune(const Options& options) {
-    const int limits = (options.error_cap ? 1 : 0) + (options.budget_ms ? 1 : 0);
-    if (options.method == "auto") {
-        if (limits == 1) return Done{};
-        return Error{limits == 0 ? "nothing to choose by" : "two things to choose by", "--method auto",
-                     "add either --error-cap or --budget-ms"};
-    }
-    if (limits == 0 && options.bench_data.empty()) return Done{};
-    return Error{"no method to choose", "--error-cap, --budget-ms and --bench-data", "add --method auto"};
-}
-
-/// Of the views that the client draws.
-glm::ivec2 largest_source_px(const Options& options) {
-    glm::ivec2 largest_px{0};
-    const auto views = drawn_views_of(options, nullptr);
-    if (!views) return largest_px;
-    for (const DrawnView& view : *views) {
-        largest_px = glm::max(largest_px, SourceCameras{view.camera, options.source}.largest().size_px);
-    }
-    return largest_px;
-}
-
-/// Limits that concern two options at once.
-Status check_together(const Options& options) {
-    const Status autotune = check_autotune(options);
-    if (!autotune) return autotune;
-    if (options.shells.on && options.stereo.on) {
-        return Error{"shells are drawn for one eye", "--shells --eyes stereo", "leave out one of them"};
-    }
-    if (options.shells.on && options.billboards.mode != BillboardMode::off) {
-        return Error{"shells draw far objects as they are", "--shells --billboards", "leave out one of them"};
-    }
-    const Status stereo = check_stereo(options);
-    if (!stereo) return stereo;
-    if (!options.bench_merge.empty() && options.bench_part == "all") {
-        return Error{"nothing to merge", "--merge", "add --part errors or --part times"};
-    }
-    const bool draws = options.subcommand == Subcommand::replay || options.subcommand == Subcommand::render;
-    const int longest_px = std::max(options.size_px.x, options.size_px.y) * options.truth_samples;
-    if (draws && longest_px > 2 * kMaxSidePx) {
-        return Error{
-            "too many samples for this size",
-            fmt::format("--size {}x{} --truth-samples {}", options.size_px.x, options.size_px.y, options.truth_samples),
-            fmt::format("keep the longer side times the samples below {}", 2 * kMaxSidePx)};
-    }
-    const glm::ivec2 source_px = largest_source_px(options);
-    if ((draws || is_live(options.subcommand)) && std::max(source_px.x, source_px.y) > 2 * kMaxSidePx) {
-        return Error{"too large a frame of the client", fmt::format("{}x{} pixels", source_px.x, source_px.y),
-                     "choose a smaller --size, --source-density or --guard-band"};
-    }
-    if (options.save_frames && options.out.empty() && options.subcommand == Subcommand::replay) {
-        return Error{"no folder for the images", "--save-frames", "add --out DIR"};
-    }
-    return Done{};
-}
-
 }  // namespace
 
 Camera Options::camera() const {
@@ -526,7 +467,7 @@ Result<CommandLine> parse_command_line(const std::vector<std::string>& arguments
     if (!command_line || command_line->text) return command_line;
     Options& options = command_line->options;
     if (options.method.empty()) options.method = default_method(options.subcommand);
-    if (options.fill.empty()) options.fill = is_live(options.subcommand) ? "nearest-background" : "pyramid";
+    if (options.fill.empty()) options.fill = is_live(options) ? "nearest-background" : "pyramid";
     // A single frame tells nothing of the head's motion, and plain `warp` of its folder is to show the plain view.
     if (options.subcommand == Subcommand::render && !options.source.guard_band_rad) options.source.guard_band_rad = 0.0;
     if (options.shells.on && !options.layers_given) options.source.layers = 2;

@@ -50,26 +50,18 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
         return display_frame_;
     }
     counters_ = {};
-    const Layer* first = nullptr;
+    usable_layers_.clear();
     for (const auto& layer : frame.layers) {
         if (target.eye && layer->for_eye && *layer->for_eye != *target.eye) continue;
         if (!problem_of(layer->camera).empty()) {
             ++held_.bad_layer;
             continue;
         }
-        if (first == nullptr) {
-            first = layer.get();
-            method_->warp(*layer, usable, display_frame_);
-            composition_.tint(*layer, display_frame_);
-        } else if (!composition_.add(*method_, *layer, *first, usable, display_frame_)) {
-            continue;
-        }
-        WarpCounters of_layer = method_->counters();
-        of_layer.bad_depth -= std::min(of_layer.bad_depth, layer->empty_pixels);  // they hold nothing, which is not bad
-        counters_ += of_layer;
+        usable_layers_.push_back(layer.get());
     }
-    if (first != nullptr) {
-        fill_->apply(display_frame_, fill_guide(first->camera, usable.camera));
+    if (!usable_layers_.empty()) {
+        counters_ = composition_.show(*method_, usable_layers_, usable, display_frame_);
+        fill_->apply(display_frame_, fill_guide(usable_layers_.front()->camera, usable.camera));
     } else if (display_frame_.colour.size_px() != usable.camera.size_px) {
         show_nothing(usable.camera.size_px, display_frame_);
     }

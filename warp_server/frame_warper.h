@@ -79,6 +79,7 @@ private:
     DisplayFrame display_frame_;
     Made made_;
     LayerComposition composition_;
+    std::vector<const Layer*> usable_layers_;  // of the picture being made
     WarpCounters counters_;
     HeldInput held_;
     std::optional<Pose> good_head_;

@@ -1,8 +1,10 @@
 #include "warp_server/layer_composition.h"
 
+#include <algorithm>
 #include <array>
 
 #include "warp_server/methods/homography_resample.h"
+#include "warp_server/methods/surface_kernels.h"
 
 namespace lw {
 namespace {
@@ -10,6 +12,9 @@ namespace {
 // Two pictures of one surface, taken from different places, differ in depth by what a pixel covers. Things that lie
 // closer together than this hardly shift against each other.
 constexpr float kSameSurface = 0.005F;
+
+// Above every depth: the pixel stays as it is.
+constexpr float kHeldDepth = 2.0F;
 
 // Of the target's pixels: fewer are left to the fill rather than to an old tile, which costs as many patches as it has.
 constexpr double kWorthATile = 0.002;
@@ -22,6 +27,59 @@ Rgba8 mixed(Rgba8 a, Rgba8 b) {
 }
 
 Rgba8 colour_of(const Layer& layer) { return kShellColours[layer.content.shell % kShellColours.size()]; }
+
+bool is_beside_view(const Layer& layer, const Layer& view) {
+    return layer.content.shell == 0 && layer.content.item != view.content.item;
+}
+
+ViewCover cover_of(const Layer& view, const Camera& target) {
+    return {background_source_from_target(view.camera, target), view.camera.size_px};
+}
+
+// A view that covers the corners covers all between them.
+bool covers_all(const ViewCover& cover, const Camera& target) {
+    const glm::ivec2 last = target.size_px - 1;
+    return cover.covers(0, 0) && cover.covers(last.x, 0) && cover.covers(0, last.y) && cover.covers(last.x, last.y);
+}
+
+double pixel_count(const Camera& camera) { return static_cast<double>(camera.size_px.x) * camera.size_px.y; }
+
+// What lies behind the view comes before the next shell, and older tiles come last.
+float depth_share_of(const Layer& layer, const Layer& view) {
+    const bool is_view = &layer == &view;
+    const float rank = is_beside_view(layer, view) ? 4.0F : static_cast<float>(layer.content.shell) + 1.0F;
+    return is_view ? 1.0F : 1.0F - 0.5F * kSameSurface * rank;
+}
+
+StackedLayer stacked(const Layer& layer, const Layer& view, const Camera& target) {
+    const bool is_view = &layer == &view;
+    const PixelRect reach = is_view ? PixelRect{{0, 0}, target.size_px} : reach_of(layer, target);
+    return {&layer, depth_share_of(layer, view), reach, nearest_target_depth(layer, target)};
+}
+
+// Pixels that hold nothing are not bad.
+WarpCounters without_empty(WarpCounters counters, const Layer& layer) {
+    counters.bad_depth -= std::min(counters.bad_depth, layer.empty_pixels);
+    return counters;
+}
+
+// Pixels of the tile's reach that show nothing, or something behind it where the view does not look.
+std::size_t missing_for(const StackedLayer& tile, const ViewCover& cover, const DisplayFrame& into) {
+    std::size_t missing = 0;
+    const PixelRect& reach = tile.reach;
+    for (int y = reach.first_px.y; y < reach.end_px.y; ++y) {
+        const float* depths = into.depth.row(y).data();
+        const auto [covered_from, covered_until] = cover.columns(y, into.depth.width());
+        const int first = std::clamp(covered_from, reach.first_px.x, reach.end_px.x);
+        const int end = std::clamp(covered_until, first, reach.end_px.x);
+        const auto count = [&](int from, int until, float depth) {
+            return count_below(depths + from, static_cast<std::size_t>(until - from), depth);
+        };
+        missing += count(first, end, 0.0F) + count(reach.first_px.x, first, tile.nearest_depth) +
+                   count(end, reach.end_px.x, tile.nearest_depth);
+    }
+    return missing;
+}
 
 void merge_nearest(const DisplayFrame& layer, glm::ivec2 at_px, DisplayFrame& into) {
     for (int y = 0; y < layer.depth.height(); ++y) {
@@ -46,20 +104,91 @@ void merge_nearest(const DisplayFrame& layer, glm::ivec2 at_px, DisplayFrame& in
 
 }  // namespace
 
+WarpCounters LayerComposition::show(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
+                                    DisplayFrame& into) {
+    const Layer& view = *layers.front();
+    WarpCounters counters;
+    if (layers.size() > 1 && method.can_stack() && !false_colours_) {
+        show_stack(method, layers, target, into, counters);
+        return counters;
+    }
+    method.warp(view, target, into);
+    counters = without_empty(method.counters(), view);
+    tint(view, into);
+    for (const Layer* layer : layers.subspan(1)) {
+        if (add(method, *layer, view, target, into)) counters += without_empty(method.counters(), *layer);
+    }
+    return counters;
+}
+
+void LayerComposition::show_stack(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
+                                  DisplayFrame& into, WarpCounters& counters) {
+    const Layer& view = *layers.front();
+    stack_.clear();
+    beside_view_.clear();
+    for (const Layer* layer : layers) {
+        if (is_beside_view(*layer, view)) {
+            beside_view_.push_back(layer);
+            continue;
+        }
+        const StackedLayer placed = stacked(*layer, view, target.camera);
+        if (!placed.reach.empty()) stack_.push_back(placed);
+    }
+    const auto warp = [&](StackBase base) {
+        method.warp_stack(stack_, target, base, into);
+        WarpCounters of_stack = method.counters();
+        for (const StackedLayer& layer : stack_) of_stack = without_empty(of_stack, *layer.layer);
+        counters += of_stack;
+    };
+    warp(StackBase::nothing);
+    if (beside_view_.empty()) return;
+    float farthest_near = 0.0F;
+    for (const StackedLayer& layer : stack_) {
+        if (layer.layer->content.shell > 0) farthest_near = std::max(farthest_near, layer.nearest_depth);
+    }
+    stack_beside_view(view, beside_view_, target, into);
+    if (stack_.empty()) return;
+    hold_what_the_view_shows(view, target, farthest_near, into);
+    warp(StackBase::picture);
+    const std::span<float> depths = into.depth.pixels();
+    const std::span<const float> shown = shown_depth_.pixels();
+    for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = depths[i] > 1.0F ? shown[i] : depths[i];
+}
+
+void LayerComposition::hold_what_the_view_shows(const Layer& view, const WarpTarget& target, float farthest,
+                                                DisplayFrame& into) {
+    shown_depth_ = into.depth;
+    const ViewCover cover = cover_of(view, target.camera);
+    for (int y = 0; y < into.depth.height(); ++y) {
+        const std::span<float> row = into.depth.row(y);
+        const auto [first, end] = cover.columns(y, into.depth.width());
+        for (float& depth : row.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first))) {
+            depth = depth < farthest ? depth : kHeldDepth;
+        }
+    }
+}
+
+// Tiles with something to show.
+void LayerComposition::stack_beside_view(const Layer& view, std::span<const Layer* const> tiles,
+                                         const WarpTarget& target, const DisplayFrame& into) {
+    const ViewCover cover = cover_of(view, target.camera);
+    stack_.clear();
+    for (const Layer* tile : tiles) {
+        const StackedLayer placed = stacked(*tile, view, target.camera);
+        const auto missing = static_cast<double>(missing_for(placed, cover, into));
+        if (missing >= std::max(kWorthATile * pixel_count(target.camera), 1.0)) stack_.push_back(placed);
+    }
+}
+
 bool LayerComposition::add(WarpMethod& method, const Layer& layer, const Layer& view, const WarpTarget& target,
                            DisplayFrame& into) {
     PixelRect rect = reach_of(layer, target.camera);
     if (rect.empty()) return false;
-    const bool beside_view = layer.content.shell == 0 && layer.content.item != view.content.item;
-    if (beside_view) {
-        const ViewCover cover{background_source_from_target(view.camera, target.camera), view.camera.size_px};
-        // A view that covers the corners covers all between them: then only holes count, and no pixel need be asked.
-        const glm::ivec2 last = target.camera.size_px - 1;
-        const bool covers_all =
-            cover.covers(0, 0) && cover.covers(last.x, 0) && cover.covers(0, last.y) && cover.covers(last.x, last.y);
-        const MissingPixels missing = missing_in(into, rect, covers_all ? 0.0F : 1.0F, cover);
-        const auto pixels = static_cast<double>(target.camera.size_px.x) * target.camera.size_px.y;
-        if (static_cast<double>(missing.count) < kWorthATile * pixels) return false;
+    if (is_beside_view(layer, view)) {
+        const ViewCover cover = cover_of(view, target.camera);
+        // Where the view covers all, only holes count, and no pixel need be asked.
+        const MissingPixels missing = missing_in(into, rect, covers_all(cover, target.camera) ? 0.0F : 1.0F, cover);
+        if (static_cast<double>(missing.count) < kWorthATile * pixel_count(target.camera)) return false;
         rect = missing.rect;
     } else if (layer.content.static_only) {
         const MissingPixels missing = missing_in(into, rect, nearest_target_depth(layer, target.camera));

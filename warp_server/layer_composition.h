@@ -9,13 +9,21 @@ namespace lw {
 /// Keeps scratch memory. Server thread.
 class LayerComposition {
 public:
-    /// Warps `layer` with `method` and shows it in `into` where nothing is shown yet or where it is nearer. Only the
-    /// part of the target is warped that the layer can reach and where something is missing, so the cost grows with
-    /// what becomes visible and not with the number of layers. Of two surfaces at nearly the same depth the one that is
-    /// shown already stays: layers come nearest shell first, and the nearest is the newest.
+    /// Warps all layers of a frame into one picture. The first is the view; the others come nearest shell first. Of two
+    /// surfaces at nearly the same depth that of the layer before is seen, which is the newer one.
     ///
     /// Layers of the nearest shell beside its view stand in for it past its edges: where the view covers the target
     /// they only fill holes, since they are older.
+    ///
+    /// A method that can, draws all layers into one picture, and what is hidden costs next to nothing; the others warp
+    /// layer by layer. So do all for false colours, which say what layer a pixel is of.
+    /// @param layers  at least one, all for the eye that looks
+    /// @return what was left out of all layers that were warped
+    WarpCounters show(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
+                      DisplayFrame& into);
+
+    /// One layer more: warps `layer` and shows it in `into` where nothing is shown yet or where it is nearer. Only the
+    /// part of the target is warped that the layer can reach and where something is missing.
     /// @param view  the frame's first layer
     /// @return false when the layer has nothing to show in this frame, and was not warped
     bool add(WarpMethod& method, const Layer& layer, const Layer& view, const WarpTarget& target, DisplayFrame& into);
@@ -27,7 +35,16 @@ public:
     void tint(const Layer& layer, DisplayFrame& frame) const;
 
 private:
+    void show_stack(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
+                    DisplayFrame& into, WarpCounters& counters);
+    void stack_beside_view(const Layer& view, std::span<const Layer* const> tiles, const WarpTarget& target,
+                           const DisplayFrame& into);
+    void hold_what_the_view_shows(const Layer& view, const WarpTarget& target, float farthest, DisplayFrame& into);
+
     DisplayFrame scratch_;
+    std::vector<StackedLayer> stack_;
+    std::vector<const Layer*> beside_view_;
+    DepthImage shown_depth_;  ///< of a picture whose pixels are held
     bool false_colours_ = false;
 };
 

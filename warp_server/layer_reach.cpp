@@ -84,6 +84,30 @@ float nearest_target_depth(const Layer& layer, const Camera& target) {
     return distance_m <= target.near_m ? 1.0F : static_cast<float>(target.near_m / distance_m);
 }
 
+// Along a row each side of the view is a condition a + b * x >= 0.
+std::pair<int, int> ViewCover::columns(int y, int width) const {
+    const glm::vec3 at_left = view_from_target * glm::vec3{0.5F, static_cast<float>(y) + 0.5F, 1.0F};
+    const glm::vec3 step = view_from_target[0];
+    float first = 0.0F;
+    float end = static_cast<float>(width);
+    const auto demand = [&](float at_zero, float per_column) {
+        if (per_column == 0.0F) {
+            if (at_zero < 0.0F) end = -1.0F;
+        } else if (per_column > 0.0F) {
+            first = std::max(first, std::ceil(-at_zero / per_column));
+        } else {
+            end = std::min(end, std::floor(at_zero / -per_column) + 1.0F);
+        }
+    };
+    demand(at_left.x, step.x);
+    demand(at_left.y, step.y);
+    demand(size_px.x * at_left.z - at_left.x, size_px.x * step.z - step.x);
+    demand(size_px.y * at_left.z - at_left.y, size_px.y * step.z - step.y);
+    demand(at_left.z, step.z);
+    if (!(first < end)) return {0, 0};
+    return {static_cast<int>(first), static_cast<int>(end)};
+}
+
 MissingPixels missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth, const ViewCover& view) {
     MissingPixels missing{{rect.end_px, rect.first_px}, 0};
     for (int y = rect.first_px.y; y < rect.end_px.y; ++y) {

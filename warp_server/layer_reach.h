@@ -3,20 +3,13 @@
 
 #include <cstddef>
 #include <glm/glm.hpp>
+#include <utility>
 
 #include "core/camera.h"
+#include "warp_server/pixel_rect.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
-
-/// Columns and rows of a picture: [first, end).
-struct PixelRect {
-    glm::ivec2 first_px{0};
-    glm::ivec2 end_px{0};
-
-    [[nodiscard]] bool empty() const { return first_px.x >= end_px.x || first_px.y >= end_px.y; }
-    [[nodiscard]] glm::ivec2 size_px() const { return end_px - first_px; }
-};
 
 /// The pixels of `target` that the layer's picture may reach: its frustum from its nearest depth to infinity, moved.
 /// The whole target for a layer that may hold movers. Pure, any thread.
@@ -30,6 +23,9 @@ struct PixelRect {
 struct ViewCover {
     glm::mat3 view_from_target{1.0F};  ///< background_source_from_target()
     glm::vec2 size_px{0.0F};           ///< of the view; 0: it covers nothing
+
+    /// The columns of row y that are covered, of `width`: [first, second).
+    [[nodiscard]] std::pair<int, int> columns(int y, int width) const;
 
     [[nodiscard]] bool covers(int x, int y) const {
         const glm::vec3 h =

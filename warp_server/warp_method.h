@@ -12,6 +12,7 @@
 #include "core/image.h"
 #include "core/object_transform.h"
 #include "frame_link/rendered_frame.h"
+#include "warp_server/pixel_rect.h"
 
 namespace lw {
 
@@ -41,6 +42,22 @@ struct WarpTarget {
     std::span<const ObjectTransform> movers;  ///< placements at photon time; a missing one holds its source placement
     /// Which of two eyes looks: layers drawn for the other one are passed over. Nothing: every layer is shown.
     std::optional<Eye> eye{};
+};
+
+/// One of several layers that are shown as one picture.
+struct StackedLayer {
+    const Layer* layer = nullptr;
+    /// Its depths count as so much: of two pictures of one surface, at nearly the same depth, that with the larger
+    /// share is seen.
+    float depth_share = 1.0F;
+    PixelRect reach;             ///< of the target: it shows nothing outside
+    float nearest_depth = 1.0F;  ///< in the target; none of its surfaces is nearer
+};
+
+/// What a stack of layers is put on.
+enum class StackBase {
+    nothing,
+    picture,  ///< what is there. Its depths say what may change: below 0 a pixel shows nothing yet, above 1 it stays
 };
 
 /// What one warp left out. Pixels that could not be used are skipped, never fatal; the rest was found not to be seen
@@ -85,7 +102,17 @@ public:
     /// prepare() runs it itself when the layer was not prepared for it.
     virtual void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) = 0;
 
-    /// Of the last warp().
+    /// Whether it has warp_stack().
+    [[nodiscard]] virtual bool can_stack() const { return false; }
+
+    /// Moves several layers into one picture: each pixel shows the nearest of all, and along edges of one layer what
+    /// another has behind. Layers that have nothing to show where they reach are passed over, so those that hide others
+    /// should come first. Programmer error where can_stack() is false.
+    /// @param out  overwritten on StackBase::nothing; else a picture of the target's size
+    virtual void warp_stack(std::span<const StackedLayer> layers, const WarpTarget& target, StackBase base,
+                            DisplayFrame& out);
+
+    /// Of the last warp() or warp_stack().
     [[nodiscard]] const WarpCounters& counters() const { return counters_; }
 
 protected:

@@ -116,7 +116,8 @@ TEST(FrameWarper, PixelsThatHoldNothingAreHolesAndNotBad) {
         const SharedLayer back = shared(indexed_layer(camera, 0.01F));
         const DisplayFrame& both = warper->warp(frame_with({front, back}), {camera, {}});
         EXPECT_EQ(both.coverage.at(5, 1), Coverage::reached) << method;
-        EXPECT_NEAR(both.depth.at(5, 1), 0.01F, 1e-6F) << method;
+        // Where layers are drawn into one picture, those behind the first count as a part of a percent farther.
+        EXPECT_NEAR(both.depth.at(5, 1), 0.01F, 0.01F * 0.003F) << method;
         EXPECT_NEAR(both.depth.at(4, 1), 0.05F, 1e-6F) << method;
     }
 }

@@ -45,14 +45,19 @@ PixelMatrix pixel_matrix_of(const Transform<TargetPx, SourcePx>& target_px_from_
     return {rounded(m[0]), rounded(m[1]), rounded(m[2]), rounded(m[3]), static_cast<float>(m[3].z), true, false};
 }
 
-void ObjectMatrices::build(const Layer& layer, const WarpTarget& target) {
-    table_.build(layer.camera, target.camera, layer.movers, target.movers);
+void ObjectMatrices::build(const Layer& layer, const WarpTarget& target, float depth_share) {
+    if (layer.content.static_only) {
+        table_.build(layer.camera, target.camera, {}, {});
+    } else {
+        table_.build(layer.camera, target.camera, layer.movers, target.movers);
+    }
     matrices_.assign(table_.size(), PixelMatrix{});
     all_identity_ = layer.camera.size_px == target.camera.size_px;
     for (std::size_t id = 0; id < table_.size(); ++id) {
         const Transform<TargetPx, SourcePx>* exact = table_.find(static_cast<ObjectId>(id));
         if (exact == nullptr) continue;
         matrices_[id] = pixel_matrix_of(*exact, layer.camera.size_px);
+        matrices_[id].depth_scale *= depth_share;
         all_identity_ = all_identity_ && matrices_[id].identity;
     }
 }

@@ -36,7 +36,8 @@ struct PixelMatrix {
 /// Dense table over object ids. Reuses its memory; one thread at a time builds, any number read.
 class ObjectMatrices {
 public:
-    void build(const Layer& layer, const WarpTarget& target);
+    /// @param depth_share  target depths are multiplied by it (StackedLayer)
+    void build(const Layer& layer, const WarpTarget& target, float depth_share = 1.0F);
 
     /// At least 1: object 0 (sky and static world) is always valid.
     [[nodiscard]] std::size_t size() const { return matrices_.size(); }

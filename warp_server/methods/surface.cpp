@@ -16,15 +16,25 @@
 namespace lw {
 namespace {
 
+// A layer to be drawn, and where it shows anything.
+struct PaintedLayer {
+    PatchInput input;
+    PixelRect reach;
+    float nearest_depth = 1.0F;
+};
+
 // Draws one band of rows of the target; one per thread.
 class BandPainter {
 public:
-    void paint(const PatchInput& input, RowRange band, DisplayFrame& out) {
-        canvas_.begin(out, band);
-        draw_list(input, input.prepared->blocks);
-        draw_list(input, input.prepared->patches);
-        draw_tile_list(input);
-        draw_list(input, input.prepared->edges);
+    void paint(std::span<const PaintedLayer> layers, RowRange band, StackBase base, DisplayFrame& out) {
+        canvas_.begin(out, band, base);
+        bool is_empty = base == StackBase::nothing;
+        for (const PaintedLayer& layer : layers) {
+            if (!is_empty && !may_show(layer)) continue;
+            draw(layer.input);
+            if (layers.size() > 1) canvas_.finish_layer();
+            is_empty = false;
+        }
         canvas_.finish();
     }
 
@@ -32,6 +42,25 @@ public:
     [[nodiscard]] const SurfaceSkips& skips() const { return canvas_.skips(); }
 
 private:
+    // Is anything in the layer's reach empty, or farther than all of the layer?
+    [[nodiscard]] bool may_show(const PaintedLayer& layer) const {
+        const auto columns = static_cast<std::size_t>(std::max(layer.reach.size_px().x, 0));
+        const int begin = std::max(layer.reach.first_px.y, canvas_.band().begin);
+        const int end = std::min(layer.reach.end_px.y, canvas_.band().end);
+        for (int y = begin; y < end; ++y) {
+            const float* depths = canvas_.frame().depth.row(y).data() + layer.reach.first_px.x;
+            if (count_below(depths, columns, layer.nearest_depth) > 0) return true;
+        }
+        return false;
+    }
+
+    void draw(const PatchInput& input) {
+        draw_list(input, input.prepared->blocks);
+        draw_list(input, input.prepared->patches);
+        draw_tile_list(input);
+        draw_list(input, input.prepared->edges);
+    }
+
     // Patches that reach behind the target eye are cut until their parts are before it, or are single cells.
     void draw_list(const PatchInput& input, const PatchList& list) {
         behind_.clear();
@@ -86,18 +115,29 @@ public:
     }
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
-        const CpuPixels& pixels = checked_cpu_pixels(layer);
-        std::shared_ptr<const PreparedLayer> own;
-        input_ = {&prepared_or_made<PreparedSurface>(layer, own), &matrices_};
-        matrices_.build(layer, target);
-        counters_ = bad_pixels(input_.prepared->id_counts, matrices_);
+        const StackedLayer alone{&layer, 1.0F, {{0, 0}, target.camera.size_px}, 1.0F};
+        warp_stack({&alone, 1}, target, StackBase::nothing, out);
+    }
+
+    [[nodiscard]] bool can_stack() const override { return true; }
+
+    void warp_stack(std::span<const StackedLayer> layers, const WarpTarget& target, StackBase base,
+                    DisplayFrame& out) override {
+        std::vector<std::shared_ptr<const PreparedLayer>> own;
+        counters_ = {};
+        place_layers(layers, target, own);
         out.resize(target.camera.size_px);
-        if (matrices_.all_identity()) {
-            copy_source(pixels, out);
-            return;
+        std::span<const PaintedLayer> to_paint = layers_;
+        if (base == StackBase::nothing && matrices_.front().all_identity()) {
+            copy_source(layers.front().layer->cpu(), matrices_.front(), out);
+            if (layers.size() == 1) return;
+            to_paint = to_paint.subspan(1);
+            base = StackBase::picture;
         }
+        to_paint_ = to_paint;
+        base_ = base;
         out_ = &out;
-        place_bands(layer.camera, target.camera);
+        place_bands(layers.front().layer->camera, target.camera, *layers_.front().input.prepared);
         pool_.run(paint_band_);
         for (const BandPainter& painter : painters_) {
             counters_.tiles_empty += painter.skips().empty;
@@ -107,15 +147,32 @@ public:
     }
 
 private:
+    // What was prepared for each layer, and its matrices. `own` keeps what had to be made here.
+    void place_layers(std::span<const StackedLayer> layers, const WarpTarget& target,
+                      std::vector<std::shared_ptr<const PreparedLayer>>& own) {
+        if (matrices_.size() < layers.size()) matrices_.resize(layers.size());
+        layers_.clear();
+        for (std::size_t i = 0; i < layers.size(); ++i) {
+            const Layer& layer = *layers[i].layer;
+            (void)checked_cpu_pixels(layer);
+            std::shared_ptr<const PreparedLayer> made;
+            const auto& prepared = prepared_or_made<PreparedSurface>(layer, made);
+            if (made != nullptr) own.push_back(std::move(made));
+            matrices_[i].build(layer, target, layers[i].depth_share);
+            counters_ += bad_pixels(prepared.id_counts, matrices_[i]);
+            layers_.push_back({{&prepared, &matrices_[i]}, layers[i].reach, layers[i].nearest_depth});
+        }
+    }
+
     // Bands of the source that cost the same, moved to where their middles land when the head only turns: near enough
     // for sharing work, and the picture does not depend on it.
-    void place_bands(const Camera& source, const Camera& target) {
+    void place_bands(const Camera& source, const Camera& target, const PreparedSurface& prepared) {
         const int threads = pool_.threads();
         const glm::mat3 source_from_target = background_source_from_target(source, target);
         const glm::mat3 target_from_source = glm::inverse(source_from_target);
         const int height = target.size_px.y;
         for (int i = 0; i < threads; ++i) {
-            const RowRange rows = band_of_cost(input_.prepared->cost_until, i, threads);
+            const RowRange rows = band_of_cost(prepared.cost_until, i, threads);
             const glm::vec3 place = target_from_source * glm::vec3{0.5F * static_cast<float>(source.size_px.x),
                                                                    static_cast<float>(rows.end), 1.0F};
             const bool usable = place.z > 0.0F && std::abs(place.y) < 1e6F * place.z;
@@ -126,7 +183,7 @@ private:
     }
 
     // Nothing moves: the source, bit for bit.
-    void copy_source(const CpuPixels& pixels, DisplayFrame& out) const {
+    void copy_source(const CpuPixels& pixels, const ObjectMatrices& matrices, DisplayFrame& out) const {
         std::copy(pixels.colour.pixels().begin(), pixels.colour.pixels().end(), out.colour.pixels().begin());
         std::copy(pixels.depth.pixels().begin(), pixels.depth.pixels().end(), out.depth.pixels().begin());
         const std::span<Coverage> coverage = out.coverage.pixels();
@@ -134,8 +191,10 @@ private:
         if (counters_.bad_depth == 0 && counters_.unknown_object == 0) return;
         for (std::size_t i = 0; i < coverage.size(); ++i) {
             const bool usable =
-                is_usable_depth(pixels.depth.pixels()[i]) && matrices_.find(pixels.object_id.pixels()[i]) != nullptr;
-            if (!usable) coverage[i] = Coverage::hole;
+                is_usable_depth(pixels.depth.pixels()[i]) && matrices.find(pixels.object_id.pixels()[i]) != nullptr;
+            if (usable) continue;
+            coverage[i] = Coverage::hole;
+            out.depth.pixels()[i] = kNoSurfaceDepth;
         }
     }
 
@@ -143,12 +202,15 @@ private:
     BandPool pool_;
     std::vector<BandPainter> painters_;
     std::vector<RowRange> bands_;
-    ObjectMatrices matrices_;
-    PatchInput input_;
+    std::vector<ObjectMatrices> matrices_;  // by layer of the stack
+    std::vector<PaintedLayer> layers_;
+    std::span<const PaintedLayer> to_paint_;
+    StackBase base_ = StackBase::nothing;
     DisplayFrame* out_ = nullptr;
     // Kept, because making a function object may allocate.
     std::function<void(int)> paint_band_ = [this](int thread) {
-        painters_[static_cast<std::size_t>(thread)].paint(input_, bands_[static_cast<std::size_t>(thread)], *out_);
+        painters_[static_cast<std::size_t>(thread)].paint(to_paint_, bands_[static_cast<std::size_t>(thread)], base_,
+                                                          *out_);
     };
 };
 

@@ -11,30 +11,45 @@
 
 namespace lw {
 
-void SurfaceCanvas::begin(DisplayFrame& out, RowRange band) {
+namespace {
+
+constexpr float kCoveredEnough = 0.5F;  // to be shown without anything opaque behind; composite_fragments has it too
+
+}  // namespace
+
+void SurfaceCanvas::begin(DisplayFrame& out, RowRange band, StackBase base) {
     frame_ = &out;
     band_ = band;
     const auto width = static_cast<std::size_t>(out.depth.width());
     first_index_ = static_cast<std::size_t>(band.begin) * width;
     const std::size_t count = static_cast<std::size_t>(band.end - band.begin) * width;
-    std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
+    if (base == StackBase::nothing) {
+        std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
+    }
     fragment_count_ = 0;
     skips_ = {};
     newest_.fill(-1);
 }
 
-void SurfaceCanvas::finish() {
-    const auto width = static_cast<std::size_t>(frame_->depth.width());
-    const std::size_t count = static_cast<std::size_t>(band_.end - band_.begin) * width;
-    if (fragment_count_ > 0) {
-        sort_fragments(count);
-        const std::size_t stretches = stretch_begin_.size() - 1;
-        for (std::size_t i = 0; i < stretches; ++i) {
-            if (i + 1 < stretches) prefetch_stretch(i + 1);
-            composite_stretch(i);
-        }
+std::size_t SurfaceCanvas::pixel_count() const {
+    return static_cast<std::size_t>(band_.end - band_.begin) * static_cast<std::size_t>(frame_->depth.width());
+}
+
+void SurfaceCanvas::composite_fragments_so_far(Uncovered uncovered) {
+    if (fragment_count_ == 0) return;
+    sort_fragments(pixel_count());
+    fragment_count_ = 0;
+    const std::size_t stretches = stretch_begin_.size() - 1;
+    for (std::size_t i = 0; i < stretches; ++i) {
+        if (i + 1 < stretches) prefetch_stretch(i + 1);
+        composite_stretch(i, uncovered);
     }
-    mark_coverage(frame_->depth.pixels().data() + first_index_, count, frame_->coverage.pixels().data() + first_index_);
+}
+
+void SurfaceCanvas::finish() {
+    composite_fragments_so_far(Uncovered::drop);
+    mark_coverage(frame_->depth.pixels().data() + first_index_, pixel_count(),
+                  frame_->coverage.pixels().data() + first_index_);
 }
 
 // By counting.
@@ -62,7 +77,7 @@ void SurfaceCanvas::prefetch_stretch(std::size_t stretch) const {
     }
 }
 
-void SurfaceCanvas::composite_stretch(std::size_t stretch) {
+void SurfaceCanvas::composite_stretch(std::size_t stretch, Uncovered uncovered) {
     const std::size_t first = first_index_ + (stretch << kStretchBits);
     touched_.clear();
     for (std::size_t i = stretch_begin_[stretch]; i < stretch_begin_[stretch + 1]; ++i) {
@@ -71,6 +86,7 @@ void SurfaceCanvas::composite_stretch(std::size_t stretch) {
         sorted_[i].next = newest_[pixel];
         newest_[pixel] = static_cast<std::int32_t>(i);
     }
+    if (uncovered == Uncovered::wait) put_off_uncovered(first);
     const FragmentLists lists{sorted_, newest_.data(), frame_->depth.pixels().data() + first,
                               frame_->colour.pixels().data() + first};
     const std::size_t left = composite_fragments(lists, touched_);
@@ -78,6 +94,23 @@ void SurfaceCanvas::composite_stretch(std::size_t stretch) {
         composite(first + touched_[i]);
         newest_[touched_[i]] = -1;
     }
+}
+
+// Takes pixels out of the stretch from pixel `first` on of which too little is covered; their fragments stay.
+void SurfaceCanvas::put_off_uncovered(std::size_t first) {
+    std::erase_if(touched_, [&](std::uint32_t pixel) {
+        if (frame_->depth.pixels()[first + pixel] >= 0.0F) return false;
+        float covered = 0.0F;
+        for (std::int32_t i = newest_[pixel]; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
+            covered += sorted_[static_cast<std::size_t>(i)].coverage;
+        }
+        if (covered >= kCoveredEnough) return false;
+        for (std::int32_t i = newest_[pixel]; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
+            fragments_[fragment_count_++] = sorted_[static_cast<std::size_t>(i)];
+        }
+        newest_[pixel] = -1;
+        return true;
+    });
 }
 
 std::size_t SurfaceCanvas::count_fragments(std::int32_t newest, float opaque_depth) const {
@@ -124,7 +157,7 @@ void SurfaceCanvas::composite(std::size_t pixel, std::span<const SurfaceFragment
     Rgba8& colour = frame_->colour.pixels()[pixel];
     float& depth = frame_->depth.pixels()[pixel];
     const bool has_opaque = depth >= 0.0F;
-    if (!has_opaque && covered < 0.5F) return;
+    if (!has_opaque && covered < kCoveredEnough) return;
     glm::vec3 sum{0.0F};
     float left = 1.0F;
     float largest_share = 0.0F;

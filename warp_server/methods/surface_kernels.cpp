@@ -405,6 +405,17 @@ void draw_tiles_here(const PatchInput& input, SurfaceCanvas& canvas, std::vector
     Painter{input, canvas, behind}.paint_tiles(input.prepared->tiles);
 }
 
+std::size_t count_below_here(const float* depths, std::size_t count, float limit) {
+    const std::size_t lanes = hn::Lanes(DF{});
+    std::size_t below = 0;
+    std::size_t i = 0;
+    for (; i + lanes <= count; i += lanes) {
+        below += hn::CountTrue(DF{}, hn::Lt(hn::LoadU(DF{}, depths + i), hn::Set(DF{}, limit)));
+    }
+    for (; i < count; ++i) below += depths[i] < limit ? 1 : 0;
+    return below;
+}
+
 void mark_coverage_here(const float* depths, std::size_t count, Coverage* coverage) {
     const hn::Rebind<std::uint8_t, DF> d8;
     auto* bytes = reinterpret_cast<std::uint8_t*>(coverage);
@@ -428,6 +439,7 @@ namespace lw {
 HWY_EXPORT(draw_patches_here);
 HWY_EXPORT(draw_tiles_here);
 HWY_EXPORT(mark_coverage_here);
+HWY_EXPORT(count_below_here);
 
 void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind) {
@@ -436,6 +448,10 @@ void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas&
 
 void draw_tiles(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
     if (input.prepared->tiles.surfaces.size() > 0) HWY_DYNAMIC_DISPATCH(draw_tiles_here)(input, canvas, behind);
+}
+
+std::size_t count_below(const float* depths, std::size_t count, float limit) {
+    return HWY_DYNAMIC_DISPATCH(count_below_here)(depths, count, limit);
 }
 
 void mark_coverage(const float* depths, std::size_t count, Coverage* coverage) {

@@ -59,10 +59,48 @@ struct TargetBand {
     [[nodiscard]] bool counts_skips() const { return rows.begin == 0; }
 };
 
+/// Patches whose corners all lie beyond one side of the picture, or behind the target eye: cutting them shows nothing.
+template <class D>
+HWY_INLINE hn::Mask<D> out_of_picture(D d, const PatchList& list, std::size_t first, const PixelMatrix& m,
+                                      const TargetBand& band) {
+    using V = hn::Vec<D>;
+    const auto set = [&](float value) { return hn::Set(d, value); };
+    const auto load = [&](const std::vector<float>& values) { return hn::LoadU(d, values.data() + first); };
+    const V width = set(static_cast<float>(band.width_px));
+    const V height = set(static_cast<float>(band.height_px));
+    const auto all = hn::Eq(hn::Zero(d), hn::Zero(d));
+    auto left = all;
+    auto right = all;
+    auto above = all;
+    auto below = all;
+    auto behind = all;
+    for (const auto* dx : {&list.left, &list.right}) {
+        for (const auto* dy : {&list.top, &list.bottom}) {
+            const V x = hn::Add(hn::Add(load(list.x), set(0.5F)), load(*dx));
+            const V y = hn::Add(hn::Add(load(list.y), set(0.5F)), load(*dy));
+            const V z = hn::Add(load(list.depth), hn::Add(hn::Mul(load(list.gradient_x), load(*dx)),
+                                                          hn::Mul(load(list.gradient_y), load(*dy))));
+            const auto row = [&](float one, float of_y, float of_x, float of_z) {
+                const V of_place = hn::Add(hn::Mul(y, set(of_y)), hn::Mul(x, set(of_x)));
+                return hn::Add(hn::Add(set(one), of_place), hn::Mul(z, set(of_z)));
+            };
+            const V h_x = row(m.one.x, m.y.x, m.x.x, m.z.x);
+            const V h_y = row(m.one.y, m.y.y, m.x.y, m.z.y);
+            const V h_w = row(m.one.w, m.y.w, m.x.w, m.z.w);
+            left = hn::And(left, hn::Lt(h_x, hn::Zero(d)));
+            right = hn::And(right, hn::Gt(h_x, hn::Mul(width, h_w)));
+            above = hn::And(above, hn::Lt(h_y, hn::Zero(d)));
+            below = hn::And(below, hn::Gt(h_y, hn::Mul(height, h_w)));
+            behind = hn::And(behind, hn::Le(h_w, hn::Zero(d)));
+        }
+    }
+    return hn::Or(hn::Or(hn::Or(left, right), hn::Or(above, below)), behind);
+}
+
 /// Places Lanes(d) patches of one object from index `first` on. One bit for each of those `wanted` that have pixels in
 /// the band. Those that reach behind the target eye have none, nor have those of several cells that are kDeepest times
-/// as far from it at one corner as at another; their indices are appended to `behind`. Those
-/// that are not in the picture at all are counted.
+/// as far from it at one corner as at another; the indices of those that may be seen once they are cut are appended to
+/// `behind`. Those that are not in the picture at all are counted.
 template <class D, class M>
 HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t first, const PixelMatrix& m, M wanted,
                                        const TargetBand& band, PlacedPatches& placed,
@@ -124,7 +162,13 @@ HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t f
     const auto is_large = hn::Or(hn::Gt(load(list.right), one_cell), hn::Gt(load(list.bottom), one_cell));
     const auto is_deep = hn::And(is_large, hn::Gt(farthest_w, hn::Mul(nearest_w, set(kDeepest))));
     in_front = hn::AndNot(is_deep, in_front);
-    for (std::uint32_t bits = bits_of(d, hn::AndNot(in_front, wanted)); bits != 0; bits &= bits - 1) {
+    std::uint32_t to_cut = bits_of(d, hn::AndNot(in_front, wanted));
+    if (to_cut != 0) {
+        const std::uint32_t unseen = to_cut & bits_of(d, out_of_picture(d, list, first, m, band));
+        if (band.counts_skips()) skips.outside += static_cast<std::uint64_t>(__builtin_popcount(unseen));
+        to_cut &= ~unseen;
+    }
+    for (std::uint32_t bits = to_cut; bits != 0; bits &= bits - 1) {
         behind.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctz(bits))));
     }
     const auto bounded = [&](V value, float low, float high) {

@@ -68,6 +68,7 @@ void download(const gl::Texture& colour, const gl::Texture& depth, GLenum depth_
     depth.download(depth_format, GL_FLOAT, pixels.depth.size_bytes(), pixels.depth.pixels().data());
     object_id.download(GL_RED_INTEGER, GL_UNSIGNED_SHORT, pixels.object_id.size_bytes(),
                        pixels.object_id.pixels().data());
+    pixels.alpha_is_share = false;
 }
 
 void copy_into(const ColourImage& tile, glm::ivec2 first_px, ColourImage& colour) {
@@ -137,6 +138,7 @@ public:
         begin_picture(camera, scene_time_s, samples_per_axis);
         resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
         download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
+        pixels.alpha_is_share = true;
     }
 
     std::uint64_t draw_part(const Camera& camera, double scene_time_s, int samples_per_axis, const ScenePart& part,
@@ -149,6 +151,8 @@ public:
         } else {
             resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
             download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
+            // The rest of a hidden pixel is what hides it, which is not in the picture.
+            pixels.alpha_is_share = part.behind == nullptr;
         }
         part_ = {};
         into_ = GpuScene::Into::gbuffer;

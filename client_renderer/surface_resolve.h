@@ -10,7 +10,7 @@ namespace lw {
 
 /// What the resolve fills: the images of a layer.
 struct LayerTextures {
-    gl::Texture colour;     ///< SRGB8_ALPHA8, holds encoded values
+    gl::Texture colour;     ///< SRGB8_ALPHA8, holds encoded values; alpha: share of the pixel that its surface covers
     gl::Texture depth;      ///< R32F
     gl::Texture object_id;  ///< R16UI
     gl::Framebuffer framebuffer;

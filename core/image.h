@@ -20,6 +20,9 @@ struct Rgba8 {
 };
 static_assert(sizeof(Rgba8) == 4);
 
+/// The same colour as a display shows it.
+[[nodiscard]] inline Rgba8 opaque(Rgba8 colour) { return {colour.r, colour.g, colour.b, 255}; }
+
 /// Row-major pixels without padding. Owns its memory; copying copies the pixels.
 template <class T>
 class Image {

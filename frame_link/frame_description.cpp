@@ -171,12 +171,21 @@ DepthEncoding read_depth_encoding(Fields& fields) {
     return DepthEncoding::kReverseZ;
 }
 
+// "surface_share", or alpha says nothing.
+bool read_alpha(Fields& fields) {
+    if (!fields.has("alpha")) return false;
+    const std::string alpha = fields.text("alpha");
+    if (alpha != "surface_share" && alpha != "none") fields.fail("alpha is neither surface_share nor none");
+    return alpha == "surface_share";
+}
+
 LayerDescription read_layer(Fields fields, std::optional<Error>& error, std::vector<std::string>& warnings) {
     LayerDescription layer;
     layer.name = fields.text("name");
     if (!is_layer_name(layer.name)) fields.fail("name is not 1-64 letters, digits, '-' and '_'");
     layer.camera = read_camera(fields, error, warnings);
     layer.depth_encoding = read_depth_encoding(fields);
+    layer.alpha_is_share = read_alpha(fields);
     layer.time_s = fields.number_or("time_s", 0.0);
     layer.pose_sampled_s = fields.number_or("pose_sampled_s", 0.0);
     if (std::abs(layer.pose_sampled_s) > 9e9) fields.fail("pose_sampled_s is beyond 9e9");
@@ -232,8 +241,9 @@ void append_layer(std::string& text, const Layer& layer) {
     append_numbers(text, orientation_xyzw, 4);
     fmt::format_to(
         std::back_inserter(text),
-        "}},\n      \"depth_encoding\": \"reverse_z\",\n      \"time_s\": {},\n      \"pose_sampled_s\": {},\n",
-        layer.scene_time_s, seconds_of(layer.pose_sampled));
+        "}},\n      \"depth_encoding\": \"reverse_z\",\n{}      \"time_s\": {},\n      \"pose_sampled_s\": {},\n",
+        layer.cpu().alpha_is_share ? "      \"alpha\": \"surface_share\",\n" : "", layer.scene_time_s,
+        seconds_of(layer.pose_sampled));
     append_objects(text, layer.movers);
     text += "    }";
 }

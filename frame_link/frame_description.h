@@ -21,6 +21,7 @@ enum class DepthEncoding {
 struct LayerDescription {
     std::string name;
     Camera camera;
+    bool alpha_is_share = false;  ///< CpuPixels::alpha_is_share
     DepthEncoding depth_encoding = DepthEncoding::kReverseZ;
     double time_s = 0.0;          ///< scene time of the movers
     double pose_sampled_s = 0.0;  ///< stamp of the pose sample, seconds since the clock's zero

@@ -93,7 +93,7 @@ Result<CpuPixels> load_pixels(const LayerDescription& description, const LayerFi
     if (description.depth_encoding == DepthEncoding::kDistanceM) {
         convert_from_distance(*depth, description.camera.near_m);
     }
-    return CpuPixels{std::move(*colour), std::move(*depth), std::move(*object_id)};
+    return CpuPixels{std::move(*colour), std::move(*depth), std::move(*object_id), description.alpha_is_share};
 }
 
 Status check_total_size(const FrameDescription& description, const fs::path& file) {

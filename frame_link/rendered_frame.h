@@ -30,6 +30,9 @@ struct CpuPixels {
     ColourImage colour;       ///< sRGB
     DepthImage depth;         ///< reversed infinite depth, near_m / distance_m; 0 = background
     ObjectIdImage object_id;  ///< 0 = static world and sky
+    /// True: the colour's alpha is the share of the pixel that its surface covers, 255 = all of it; what is next to it
+    /// has the rest. So a warp knows where in a pixel an edge runs. False: alpha says nothing.
+    bool alpha_is_share = false;
 };
 
 /// Pixels in textures of a context that shares with the server's: SRGB8_ALPHA8, R32F and R16UI, row 0 on top.

@@ -7,6 +7,7 @@
 #include "core/check.h"
 #include "core/placement_check.h"
 #include "warp_server/methods/registry.h"
+#include "warp_server/part_cover.h"
 
 namespace lw {
 namespace {
@@ -61,7 +62,9 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
     }
     if (!usable_layers_.empty()) {
         counters_ = composition_.show(*method_, usable_layers_, usable, display_frame_);
+        open_partly_covered(display_frame_);
         fill_->apply(display_frame_, fill_guide(usable_layers_.front()->camera, usable.camera));
+        close_partly_covered(display_frame_);
     } else if (display_frame_.colour.size_px() != usable.camera.size_px) {
         show_nothing(usable.camera.size_px, display_frame_);
     }

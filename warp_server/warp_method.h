@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "core/camera.h"
 #include "core/image.h"
@@ -23,16 +24,28 @@ enum class Coverage : std::uint8_t {
     filled = 2,   ///< was a hole; the fill invented it
 };
 
+/// A pixel of which surfaces cover only a part, with nothing known behind them.
+struct PartlyCovered {
+    std::uint32_t pixel = 0;  ///< number in the picture
+    float share = 0.0F;       ///< in (0, 1)
+    float depth = 0.0F;       ///< of the largest of them
+    Rgba8 colour;             ///< of them alone
+};
+
 /// The picture of one display refresh. All images have the target's size.
 struct DisplayFrame {
-    ColourImage colour;
-    DepthImage depth;  ///< reversed infinite depth of the target camera
+    ColourImage colour;  ///< opaque
+    DepthImage depth;    ///< reversed infinite depth of the target camera
     Image<Coverage> coverage;
+    /// Pixels along edges beside holes: those covered by half or more are `reached` and have the colour as it is here,
+    /// the others are holes. What a fill makes of the hole belongs beside the surface (part_cover.h).
+    std::vector<PartlyCovered> partly_covered;
 
     void resize(glm::ivec2 size_px) {
         colour.resize(size_px);
         depth.resize(size_px);
         coverage.resize(size_px);
+        partly_covered.clear();
     }
 };
 

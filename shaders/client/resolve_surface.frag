@@ -1,6 +1,7 @@
 #version 450 core
 // One pixel from SAMPLES x SAMPLES samples, all of one surface: that of the sample with the median depth. A mean over
-// several surfaces would travel with a depth that none of them has, as a halo.
+// several surfaces would travel with a depth that none of them has, as a halo. Alpha is the share of the samples that
+// are on it.
 #include "client_blocks.h"
 #include "client/srgb.glsl"
 
@@ -119,7 +120,7 @@ void main() {
     float depth = depths[median] + off_plane / count + dot(gradient, to_centre);
     // A centre beyond the horizon of the plane, or nearer than the near plane, has no depth of it.
     if (depth <= 0.0 || depth > 1.0) depth = depths[median];
-    o_colour = vec4(srgb_from_linear(colour / count), 1.0);
+    o_colour = vec4(srgb_from_linear(colour / count), count / float(kSamples));
     o_depth = depth;
     o_object_id = ids[median];
 }

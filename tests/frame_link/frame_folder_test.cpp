@@ -101,14 +101,18 @@ protected:
 };
 
 TEST_F(FrameFolder, ReadsBackBitForBit) {
-    const RenderedFrame frame = make_frame();
+    RenderedFrame frame = make_frame();
+    const std::shared_ptr<Layer> with_shares = make_layer("edges");
+    with_shares->cpu().alpha_is_share = true;
+    with_shares->cpu().colour.at(1, 1).a = 64;
+    frame.layers.push_back(with_shares);
     save(frame);
     const LoadedFrame again = loaded();
     ASSERT_NE(again.frame, nullptr);
     EXPECT_THAT(again.warnings, IsEmpty());
     EXPECT_EQ(again.frame->index, 42U);
-    ASSERT_EQ(again.frame->layers.size(), 2U);
-    for (std::size_t i = 0; i < 2; ++i) {
+    ASSERT_EQ(again.frame->layers.size(), 3U);
+    for (std::size_t i = 0; i < 3; ++i) {
         const Layer& before = *frame.layers[i];
         const Layer& after = *again.frame->layers[i];
         EXPECT_EQ(after.name, before.name);
@@ -118,6 +122,7 @@ TEST_F(FrameFolder, ReadsBackBitForBit) {
         EXPECT_EQ(after.movers, before.movers);
         EXPECT_EQ(after.cpu().colour, before.cpu().colour);
         EXPECT_EQ(after.cpu().object_id, before.cpu().object_id);
+        EXPECT_EQ(after.cpu().alpha_is_share, before.cpu().alpha_is_share);
         EXPECT_TRUE(same_bits(after.cpu().depth, before.cpu().depth));
     }
 }

@@ -201,6 +201,7 @@ struct Sample {
     Hit hit;
     glm::dvec3 colour;
     double depth = 0.0;
+    double share = 1.0;  // of the pixel
 };
 
 // The NxN samples of one pixel, in reading order.
@@ -237,6 +238,7 @@ Sample resolved_per_surface(std::vector<Sample>& samples) {
     }
     result.colour = colour / static_cast<double>(count);
     result.depth = depth / count;
+    result.share = static_cast<double>(count) / static_cast<double>(samples.size());
     return result;
 }
 
@@ -365,7 +367,8 @@ Layer AnalyticScene::draw(const Camera& camera, double time_s, int samples) cons
     layer.camera = camera;
     layer.scene_time_s = time_s;
     layer.movers = movers(time_s);
-    CpuPixels pixels{ColourImage{camera.size_px}, DepthImage{camera.size_px}, ObjectIdImage{camera.size_px}};
+    CpuPixels pixels{ColourImage{camera.size_px}, DepthImage{camera.size_px}, ObjectIdImage{camera.size_px},
+                     samples > 1};
     const PlacedScene scene{solids, time_s};
     const RayCaster caster{camera};
     std::vector<Sample> pixel_samples;
@@ -373,6 +376,7 @@ Layer AnalyticScene::draw(const Camera& camera, double time_s, int samples) cons
         cast_pixel(scene, caster, camera.near_m, x, y, samples, pixel_samples);
         const Sample sample = resolved_per_surface(pixel_samples);
         pixels.colour.at(x, y) = stored(sample.colour);
+        pixels.colour.at(x, y).a = static_cast<std::uint8_t>(std::lround(255.0 * sample.share));
         pixels.depth.at(x, y) = static_cast<float>(sample.depth);
         pixels.object_id.at(x, y) =
             sample.hit.solid < 0 ? ObjectId{0} : solids[static_cast<std::size_t>(sample.hit.solid)].id;

@@ -69,7 +69,8 @@ public:
     [[nodiscard]] static AnalyticScene wall(double distance_m = 2.0, double slant_rad = 0.0);
 
     /// What a renderer would publish. With `samples` > 1 each pixel's NxN samples are resolved per surface: colour and
-    /// depth are averaged over the samples on the surface of the pixel's median sample by depth.
+    /// depth are averaged over the samples on the surface of the pixel's median sample by depth, and alpha is their
+    /// share of all.
     [[nodiscard]] Layer draw(const Camera& camera, double time_s, int samples = 1) const;
 
     /// The ideal picture: NxN samples per pixel averaged in linear light.

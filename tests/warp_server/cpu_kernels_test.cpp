@@ -162,17 +162,20 @@ TEST(LinearColour, EveryInstructionSetGivesTheSameValuesWithZerosBehind) {
         ColourImage image{{width, 3}};
         for (std::size_t i = 0; i < image.pixels().size(); ++i) {
             const auto value = static_cast<std::uint8_t>(7 * i + 3);
-            image.pixels()[i] = {value, static_cast<std::uint8_t>(value + 90), static_cast<std::uint8_t>(~value), 255};
+            const auto alpha = static_cast<std::uint8_t>(255 - 5 * i);
+            image.pixels()[i] = {value, static_cast<std::uint8_t>(value + 90), static_cast<std::uint8_t>(~value),
+                                 alpha};
         }
-        const LinearImage best{image};
+        const LinearImage best{image, LinearAlpha::kept};
         const auto count =
             static_cast<std::size_t>(best.row_stride()) * static_cast<std::size_t>(3 + LinearImage::kSpareRows);
         for (const std::int64_t set : sets.all()) {
             InstructionSets::use(set);
-            const LinearImage linear{image};
+            const LinearImage linear{image, LinearAlpha::kept};
             EXPECT_TRUE(std::equal(best.data(), best.data() + count, linear.data())) << hwy::TargetName(set);
         }
         EXPECT_EQ(best.data()[width], 0);
+        EXPECT_EQ(best.data()[3 * best.channel_stride()], kLinearOne);
         hwy::SetSupportedTargetsForTest(0);
     }
 }

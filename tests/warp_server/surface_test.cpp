@@ -12,6 +12,7 @@
 #include "tests/warp_server/image_assertions.h"
 #include "tests/warp_server/synthetic_layers.h"
 #include "warp_server/fill.h"
+#include "warp_server/frame_warper.h"
 
 namespace lw::test {
 namespace {
@@ -118,15 +119,100 @@ TEST(SurfaceMethod, ColoursAreNotMixedAcrossAnEdge) {
     EXPECT_EQ(frame.coverage.at(35, 16), Coverage::hole);  // uncovered: nobody knows what is there
 }
 
+// A head that turns by about a thousandth of a pixel in the middle of a picture 96 px wide, two at its rim.
+Camera hardly_turned(const Camera& source) { return moved(source, {0.0, 0.0, 0.0}, 0.001 * 90.0 / 96.0); }
+
 TEST(SurfaceMethod, ATinyMotionChangesThePictureLittle) {
     // Coverage along edges fades in with the motion: a thousandth of a pixel must not show.
     const AnalyticScene scene = AnalyticScene::street();
     const Camera source = street_camera({96, 96});
     const Layer layer = scene.draw(source, 0.0);
-    const Camera target = moved(source, {0.0, 0.0, 0.0}, 0.001 * 90.0 / 96.0);
-    const DisplayFrame frame = warp_once("surface", layer, {target, layer.movers});
+    const DisplayFrame frame = warp_once("surface", layer, {hardly_turned(source), layer.movers});
     // A thousandth of the step between black and white is a third of a level in light, up to 2 in the darkest colours.
     EXPECT_TRUE(images_agree("surface-tiny", frame.colour, layer.cpu().colour, 2));
+}
+
+// A black strip 1 m away before white 5 m away, its edges `share` of a pixel left of where columns 24 and 40 begin.
+Layer strip_layer(const Camera& source, double share) {
+    Layer layer = indexed_layer(source, 0.01F);
+    layer.cpu().alpha_is_share = true;
+    const auto part = [](double of_one) { return static_cast<std::uint8_t>(std::lround(255.0 * of_one)); };
+    for (int y = 0; y < source.size_px.y; ++y) {
+        for (int x = 0; x < source.size_px.x; ++x) {
+            const bool strip = x >= 24 && x < 40;
+            layer.cpu().depth.at(x, y) = strip ? 0.05F : 0.01F;
+            const auto level = static_cast<std::uint8_t>(strip ? 0 : 255);
+            const bool cut = x == 23 || x == 39;  // by the strip's left edge, and by its right one
+            layer.cpu().colour.at(x, y) = {level, level, level, cut ? part(1.0 - share) : std::uint8_t{255}};
+        }
+    }
+    return layer;
+}
+
+TEST(SurfaceMethod, SharesFadeInWithTheMotion) {
+    const Camera source = street_camera({96, 96});
+    Layer layer = strip_layer(source, 0.4);
+    const DisplayFrame still = warp_once("surface", layer, {source, {}});
+    const DisplayFrame moving = warp_once("surface", layer, {hardly_turned(source), {}});
+    for (Rgba8& colour : layer.cpu().colour.pixels()) colour = opaque(colour);
+    EXPECT_EQ(still.colour, layer.cpu().colour);
+    // After 2/1000 px shares of up to a half count 1/125: 0.4 % of white light is level 13.
+    EXPECT_TRUE(images_agree("shares-tiny", moving.colour, layer.cpu().colour, 13));
+}
+
+TEST(SurfaceMethod, SharesSayWhereInAPixelAnEdgeRuns) {
+    const Camera source = street_camera({64, 32});
+    // The strip moves by 6.4 px to 17.6 - share .. 33.6 - share: at 0.4, its left edge lies in pixel 17.
+    for (const double share : {0.0, 0.2, 0.4}) {
+        const DisplayFrame frame =
+            warp_once("surface", strip_layer(source, share), {moved(source, {0.4, 0.0, 0.0}, 0.0), {}});
+        double white = 0.0;
+        for (int x = 14; x < 21; ++x) white += linear_of(frame.colour.at(x, 16)).g;
+        // Between columns the edge is interpolated, which spreads it over two pixels and keeps its place.
+        EXPECT_NEAR(white, 3.6 - share, 0.12) << share;
+    }
+}
+
+TEST(SurfaceMethod, AWireIsAsWideAsItsShare) {
+    // Column 24 is a black wire 1 m away that covers a part of it, before white 5 m away.
+    const Camera source = street_camera({64, 32});
+    for (const double share : {0.4, 0.6, 1.0}) {
+        Layer layer = indexed_layer(source, 0.01F);
+        layer.cpu().alpha_is_share = true;
+        for (int y = 0; y < 32; ++y) {
+            for (int x = 0; x < 64; ++x) {
+                layer.cpu().depth.at(x, y) = x == 24 ? 0.05F : 0.01F;
+                layer.cpu().colour.at(x, y) = {255, 255, 255, 255};
+            }
+            layer.cpu().colour.at(24, y) = {0, 0, 0, static_cast<std::uint8_t>(std::lround(255.0 * share))};
+        }
+        auto warper = FrameWarper::create("surface", "nearest-background");
+        ASSERT_TRUE(warper.ok());
+        RenderedFrame rendered;
+        rendered.layers = {std::make_shared<Layer>(std::move(layer))};
+        for (const double aside_m : {0.4, 0.41, 0.42, 0.43}) {  // 6.4 px and on
+            const DisplayFrame& frame = warper->warp(rendered, {moved(source, {aside_m, 0.0, 0.0}, 0.0), {}});
+            double black = 0.0;
+            for (int x = 14; x < 22; ++x) black += 1.0 - linear_of(frame.colour.at(x, 16)).g;
+            // Sampled once per pixel, a wire narrower than that is wider or thinner by where it lies.
+            EXPECT_NEAR(black, share, 0.2) << share << ", " << aside_m;
+        }
+    }
+}
+
+TEST(SurfaceMethod, WhatIsNotSharedIsWhatTheFillFound) {
+    const Camera source = street_camera({64, 32});
+    auto warper = FrameWarper::create("surface", "nearest-background");
+    ASSERT_TRUE(warper.ok());
+    RenderedFrame rendered;
+    rendered.layers = {std::make_shared<Layer>(strip_layer(source, 0.0))};
+    const DisplayFrame& frame = warper->warp(rendered, {moved(source, {0.4, 0.0, 0.0}, 0.0), {}});
+    // The strip's right edge, at 33.6, stands before what was hidden: pixel 33 is black by a part, white by the rest.
+    EXPECT_EQ(frame.colour.at(32, 16).g, 0);
+    EXPECT_NEAR(linear_of(frame.colour.at(33, 16)).g, 0.4F, 0.05F);
+    EXPECT_EQ(frame.coverage.at(33, 16), Coverage::reached);
+    EXPECT_EQ(frame.colour.at(34, 16).g, 255);
+    EXPECT_EQ(frame.coverage.at(34, 16), Coverage::filled);
 }
 
 struct Quality {

@@ -34,21 +34,21 @@ struct BilinearTap {
     return tap;
 }
 
-/// Colour at the tap. Exactly the stored colour where both fractions are 0.
+/// Colour at the tap, opaque. Exactly the stored colour where both fractions are 0.
 [[nodiscard]] inline Rgba8 sample_bilinear(const ColourImage& image, const BilinearTap& tap) {
     const Rgba8 c00 = image.at(tap.x0, tap.y0);
-    if (tap.fx == 0.0F && tap.fy == 0.0F) return c00;
+    if (tap.fx == 0.0F && tap.fy == 0.0F) return opaque(c00);
     const Rgba8 c10 = image.at(tap.x1, tap.y0);
     const Rgba8 c01 = image.at(tap.x0, tap.y1);
     const Rgba8 c11 = image.at(tap.x1, tap.y1);
-    if (c00 == c10 && c00 == c01 && c00 == c11) return c00;
+    if (c00 == c10 && c00 == c01 && c00 == c11) return opaque(c00);
     const std::array<float, 256>& linear = linear_from_srgb8_table();
     const auto mix = [&](std::uint8_t Rgba8::*channel) {
         const float top = linear[c00.*channel] + tap.fx * (linear[c10.*channel] - linear[c00.*channel]);
         const float bottom = linear[c01.*channel] + tap.fx * (linear[c11.*channel] - linear[c01.*channel]);
         return srgb8_from_linear(top + tap.fy * (bottom - top));
     };
-    return {mix(&Rgba8::r), mix(&Rgba8::g), mix(&Rgba8::b), c00.a};
+    return {mix(&Rgba8::r), mix(&Rgba8::g), mix(&Rgba8::b), 255};
 }
 
 }  // namespace lw

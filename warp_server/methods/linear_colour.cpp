@@ -44,12 +44,14 @@ Parabola parabola_between(double low, double high) {
 
 }  // namespace
 
-LinearImage::LinearImage(const ColourImage& image)
-    : size_px_{image.size_px()}, channel_stride_{image.width() + kSpareColumns} {
+LinearImage::LinearImage(const ColourImage& image, LinearAlpha alpha)
+    : size_px_{image.size_px()},
+      channels_{alpha == LinearAlpha::kept ? 4 : 3},
+      channel_stride_{image.width() + kSpareColumns} {
     const auto stride = static_cast<std::size_t>(row_stride());
     const auto rows = static_cast<std::size_t>(size_px_.y);
     values_ = std::make_unique_for_overwrite<std::uint16_t[]>(stride * (rows + kSpareRows));
-    linearise(image, linear15_from_srgb8_table(), values_.get(), channel_stride_);
+    linearise(image, linear15_from_srgb8_table(), alpha, {values_.get(), channel_stride_});
     std::fill_n(values_.get() + rows * stride, kSpareRows * stride, std::uint16_t{0});
 }
 

@@ -13,27 +13,34 @@ namespace lw {
 /// 1.0 of linear light. 15 bits tell the darkest sRGB steps apart ten times over.
 inline constexpr int kLinearOne = 32767;
 
+enum class LinearAlpha : std::uint8_t { none, kept };
+
 /// A picture in linear light, 15 bits per channel in 16. Channels lie apart, so that one vector holds a stretch of one
-/// channel; the three rows of one image row follow each other. Beyond the last column and the last row lie zeros, so
-/// that a read of kSpareColumns pixels from any pixel on, in its row and the two below, stays inside.
+/// channel; the three rows of one image row follow each other, and a fourth with alpha where that is wanted. Beyond the
+/// last column and the last row lie zeros, so that a read of kSpareColumns pixels from any pixel on, in its row and the
+/// two below, stays inside.
 class LinearImage {
 public:
     static constexpr std::ptrdiff_t kSpareColumns = 32;  ///< 16-bit lanes of the widest vector
     static constexpr std::ptrdiff_t kSpareRows = 2;
 
     LinearImage() = default;
-    /// Any thread.
-    explicit LinearImage(const ColourImage& image);
+    /// Any thread. Alpha is kept as it is, in steps of kLinearOne / 255.
+    explicit LinearImage(const ColourImage& image, LinearAlpha alpha = LinearAlpha::none);
 
     [[nodiscard]] glm::ivec2 size_px() const { return size_px_; }
-    /// From a pixel's red to its green, and from its green to its blue.
+    /// From a pixel's red to its green, from its green to its blue, from its blue to its alpha.
     [[nodiscard]] std::ptrdiff_t channel_stride() const { return channel_stride_; }
-    [[nodiscard]] std::ptrdiff_t row_stride() const { return 3 * channel_stride_; }
+    [[nodiscard]] std::ptrdiff_t row_stride() const { return channels_ * channel_stride_; }
+    [[nodiscard]] bool has_alpha() const { return channels_ == 4; }
+    /// Of images that have one.
+    [[nodiscard]] std::uint16_t* alpha_row(int y) { return values_.get() + y * row_stride() + 3 * channel_stride_; }
     /// Red of the first pixel.
     [[nodiscard]] const std::uint16_t* data() const { return values_.get(); }
 
 private:
     glm::ivec2 size_px_{0};
+    std::ptrdiff_t channels_ = 3;
     std::ptrdiff_t channel_stride_ = 0;
     std::unique_ptr<std::uint16_t[]> values_;
 };

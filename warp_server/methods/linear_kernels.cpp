@@ -76,18 +76,28 @@ std::size_t linearise_many(const Rgba8*, std::size_t, const std::uint16_t*, std:
 
 #endif
 
-void linearise_here(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, std::uint16_t* out,
-                    std::ptrdiff_t channel_stride) {
+// 255 becomes kLinearOne exactly. The compiler makes vectors of it.
+void scale_alpha(const Rgba8* pixels, std::size_t count, std::uint16_t* out) {
+    for (std::size_t x = 0; x < count; ++x) {
+        out[x] = static_cast<std::uint16_t>((pixels[x].a * static_cast<unsigned>(kLinearOne) + 127U) / 255U);
+    }
+}
+
+void linearise_here(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, LinearAlpha alpha,
+                    LinearRows rows) {
     const auto width = static_cast<std::size_t>(image.width());
-    const auto stride = static_cast<std::size_t>(channel_stride);
+    const auto stride = static_cast<std::size_t>(rows.channel_stride);
+    const std::size_t channels = alpha == LinearAlpha::kept ? 4 : 3;
+    std::uint16_t* out = rows.first;
     for (int y = 0; y < image.height(); ++y) {
         const Rgba8* row = image.row(y).data();
         const std::size_t done = linearise_many(row, width, linear.data(), out, stride);
         linearise_one_by_one(row + done, width - done, linear.data(), out + done, stride);
-        for (std::size_t channel = 0; channel < 3; ++channel) {
+        if (alpha == LinearAlpha::kept) scale_alpha(row, width, out + 3 * stride);
+        for (std::size_t channel = 0; channel < channels; ++channel) {
             std::fill(out + channel * stride + width, out + (channel + 1) * stride, std::uint16_t{0});
         }
-        out += 3 * stride;
+        out += channels * stride;
     }
 }
 
@@ -100,9 +110,9 @@ namespace lw {
 
 HWY_EXPORT(linearise_here);
 
-void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, std::uint16_t* out,
-               std::ptrdiff_t channel_stride) {
-    HWY_DYNAMIC_DISPATCH(linearise_here)(image, linear, out, channel_stride);
+void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, LinearAlpha alpha,
+               LinearRows out) {
+    HWY_DYNAMIC_DISPATCH(linearise_here)(image, linear, alpha, out);
 }
 
 }  // namespace lw

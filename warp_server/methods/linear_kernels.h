@@ -6,12 +6,20 @@
 #include <cstdint>
 
 #include "core/image.h"
+#include "warp_server/methods/linear_colour.h"
 
 namespace lw {
 
-/// Looks every channel of `image` up in `linear`: a row's reds to `out`, its greens `channel_stride` further on, then
-/// its blues, then the next row; zeros behind each up to `channel_stride`. Any thread.
-void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, std::uint16_t* out,
-               std::ptrdiff_t channel_stride);
+/// Where the channels of a row go: its reds, its greens `channel_stride` further on, its blues, and its alphas if they
+/// are kept; then the next row.
+struct LinearRows {
+    std::uint16_t* first = nullptr;
+    std::ptrdiff_t channel_stride = 0;
+};
+
+/// Looks every colour channel of `image` up in `linear`, and scales alpha to kLinearOne; zeros behind each channel's
+/// row up to the stride. Any thread.
+void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, LinearAlpha alpha,
+               LinearRows out);
 
 }  // namespace lw

@@ -1,7 +1,9 @@
 #include "warp_server/methods/object_matrices.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <optional>
 
 #include "core/check.h"
 
@@ -31,6 +33,43 @@ bool is_identity(const glm::dmat4& m, glm::ivec2 source_size_px) {
     return true;
 }
 
+// How far pixels beyond sight and a metre away move from where a still picture shows them.
+class Motion {
+public:
+    Motion(const Camera& source, Camera target) {
+        target.world_from_eye = source.world_from_eye;
+        const Transform<TargetPx, SourcePx> still = static_target_px_from_source_px(source, target);
+        std::size_t i = 0;
+        for (const double part : {0.0, 0.5, 1.0}) {
+            for (const double depth : {0.0, source.near_m}) {
+                probes_[i].place = {part * glm::dvec2{source.size_px}, 1.0, depth};
+                const glm::dvec4 shown = still.matrix * probes_[i].place;
+                probes_[i++].still_px = glm::dvec2{shown} / shown.w;
+            }
+        }
+    }
+
+    [[nodiscard]] float of(const Transform<TargetPx, SourcePx>& target_px_from_source_px) const {
+        double largest_px = 0.0;
+        for (const Probe& probe : probes_) {
+            const glm::dvec4 shown = target_px_from_source_px.matrix * probe.place;
+            const double moved_px = glm::distance(glm::dvec2{shown} / shown.w, probe.still_px);
+            if (!(shown.w > 0.0) || !(moved_px < kFarPx)) return kFarPx;
+            largest_px = std::max(largest_px, moved_px);
+        }
+        return static_cast<float>(largest_px);
+    }
+
+private:
+    static constexpr float kFarPx = 1e6F;
+
+    struct Probe {
+        glm::dvec4 place{0.0};  // in the source
+        glm::dvec2 still_px{0.0};
+    };
+    std::array<Probe, 6> probes_;
+};
+
 PixelMatrix::Column rounded(const glm::dvec4& column) {
     return {static_cast<float>(column.x), static_cast<float>(column.y), static_cast<float>(column.w)};
 }
@@ -40,9 +79,9 @@ PixelMatrix::Column rounded(const glm::dvec4& column) {
 PixelMatrix pixel_matrix_of(const Transform<TargetPx, SourcePx>& target_px_from_source_px, glm::ivec2 source_size_px) {
     const glm::dmat4& m = target_px_from_source_px.matrix;
     if (is_identity(m, source_size_px)) {
-        return {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 0.0F}, 1.0F, true, true};
+        return {{1.0F, 0.0F, 0.0F}, {0.0F, 1.0F, 0.0F}, {0.0F, 0.0F, 1.0F}, {0.0F, 0.0F, 0.0F}, 1.0F, 0.0F, true, true};
     }
-    return {rounded(m[0]), rounded(m[1]), rounded(m[2]), rounded(m[3]), static_cast<float>(m[3].z), true, false};
+    return {rounded(m[0]), rounded(m[1]), rounded(m[2]), rounded(m[3]), static_cast<float>(m[3].z), 0.0F, true, false};
 }
 
 void ObjectMatrices::build(const Layer& layer, const WarpTarget& target, float depth_share) {
@@ -53,11 +92,15 @@ void ObjectMatrices::build(const Layer& layer, const WarpTarget& target, float d
     }
     matrices_.assign(table_.size(), PixelMatrix{});
     all_identity_ = layer.camera.size_px == target.camera.size_px;
+    const auto* pixels = std::get_if<CpuPixels>(&layer.pixels);
+    std::optional<Motion> motion;
+    if (pixels != nullptr && pixels->alpha_is_share) motion.emplace(layer.camera, target.camera);
     for (std::size_t id = 0; id < table_.size(); ++id) {
         const Transform<TargetPx, SourcePx>* exact = table_.find(static_cast<ObjectId>(id));
         if (exact == nullptr) continue;
         matrices_[id] = pixel_matrix_of(*exact, layer.camera.size_px);
         matrices_[id].depth_scale *= depth_share;
+        if (motion) matrices_[id].moved_px = motion->of(*exact);
         all_identity_ = all_identity_ && matrices_[id].identity;
     }
 }

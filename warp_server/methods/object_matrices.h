@@ -24,6 +24,9 @@ struct PixelMatrix {
     Column one;
     Column z;
     float depth_scale = 0.0F;
+    /// About how far the object's pixels move from where a still picture shows them, if it is a metre away. Known for
+    /// layers whose alpha is a share (CpuPixels), else 0.
+    float moved_px = 0.0F;
     bool valid = false;     ///< false: the id has no usable placement, its pixels are counted and skipped
     bool identity = false;  ///< exactly the identity: every source pixel stays where it is
 };

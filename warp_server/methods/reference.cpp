@@ -82,7 +82,7 @@ private:
                                                  pixels.colour.at(x, y));
                 if (key <= keys_.at(column, row)) continue;
                 keys_.at(column, row) = key;
-                out.colour.at(column, row) = pixels.colour.at(x, y);
+                out.colour.at(column, row) = opaque(pixels.colour.at(x, y));
                 out.depth.at(column, row) = snapped(placed->depth);
                 out.coverage.at(column, row) = Coverage::reached;
             }

@@ -71,7 +71,7 @@ private:
         const float target_depth = depth * depth_ratio_;
         if (!(x >= 0.0 && x < out_.colour.width()) || target_depth > 1.0F) return;
         const int target_x = static_cast<int>(x);
-        out_.colour.at(target_x, target_y) = pixels_.colour.at(source_x, source_y);
+        out_.colour.at(target_x, target_y) = opaque(pixels_.colour.at(source_x, source_y));
         out_.depth.at(target_x, target_y) = target_depth;
         out_.coverage.at(target_x, target_y) = Coverage::reached;
     }

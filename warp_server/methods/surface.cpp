@@ -40,6 +40,7 @@ public:
 
     /// Of the last picture.
     [[nodiscard]] const SurfaceSkips& skips() const { return canvas_.skips(); }
+    [[nodiscard]] const std::vector<PartlyCovered>& partly_covered() const { return canvas_.partly_covered(); }
 
 private:
     // Is anything in the layer's reach empty, or farther than all of the layer?
@@ -126,7 +127,7 @@ public:
         std::vector<std::shared_ptr<const PreparedLayer>> own;
         counters_ = {};
         place_layers(layers, target, own);
-        out.resize(target.camera.size_px);
+        if (base == StackBase::nothing) out.resize(target.camera.size_px);
         std::span<const PaintedLayer> to_paint = layers_;
         if (base == StackBase::nothing && matrices_.front().all_identity()) {
             copy_source(layers.front().layer->cpu(), matrices_.front(), out);
@@ -143,6 +144,8 @@ public:
             counters_.tiles_empty += painter.skips().empty;
             counters_.tiles_outside += painter.skips().outside;
             counters_.tiles_hidden += painter.skips().hidden;
+            const std::vector<PartlyCovered>& partly = painter.partly_covered();
+            out.partly_covered.insert(out.partly_covered.end(), partly.begin(), partly.end());
         }
     }
 
@@ -184,7 +187,7 @@ private:
 
     // Nothing moves: the source, bit for bit.
     void copy_source(const CpuPixels& pixels, const ObjectMatrices& matrices, DisplayFrame& out) const {
-        std::copy(pixels.colour.pixels().begin(), pixels.colour.pixels().end(), out.colour.pixels().begin());
+        std::ranges::transform(pixels.colour.pixels(), out.colour.pixels().begin(), opaque);
         std::copy(pixels.depth.pixels().begin(), pixels.depth.pixels().end(), out.depth.pixels().begin());
         const std::span<Coverage> coverage = out.coverage.pixels();
         std::fill(coverage.begin(), coverage.end(), Coverage::reached);

@@ -27,6 +27,7 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band, StackBase base) {
         std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
     }
     fragment_count_ = 0;
+    partly_covered_.clear();
     skips_ = {};
     newest_.fill(-1);
 }
@@ -87,8 +88,12 @@ void SurfaceCanvas::composite_stretch(std::size_t stretch, Uncovered uncovered) 
         newest_[pixel] = static_cast<std::int32_t>(i);
     }
     if (uncovered == Uncovered::wait) put_off_uncovered(first);
-    const FragmentLists lists{sorted_, newest_.data(), frame_->depth.pixels().data() + first,
-                              frame_->colour.pixels().data() + first};
+    const FragmentLists lists{sorted_,
+                              newest_.data(),
+                              frame_->depth.pixels().data() + first,
+                              frame_->colour.pixels().data() + first,
+                              static_cast<std::uint32_t>(first),
+                              &partly_covered_};
     const std::size_t left = composite_fragments(lists, touched_);
     for (std::size_t i = 0; i < left; ++i) {
         composite(first + touched_[i]);
@@ -154,14 +159,13 @@ void SurfaceCanvas::composite(std::size_t pixel) {
 // Nearest first, each over what is behind it; the farthest surface takes what is left, because the surfaces of one
 // place fill it together.
 void SurfaceCanvas::composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted, float covered) {
-    Rgba8& colour = frame_->colour.pixels()[pixel];
-    float& depth = frame_->depth.pixels()[pixel];
-    const bool has_opaque = depth >= 0.0F;
-    if (!has_opaque && covered < kCoveredEnough) return;
+    const Rgba8 opaque_colour = frame_->colour.pixels()[pixel];
+    const float opaque_depth = frame_->depth.pixels()[pixel];
+    const bool has_opaque = opaque_depth >= 0.0F;
     glm::vec3 sum{0.0F};
     float left = 1.0F;
     float largest_share = 0.0F;
-    float shown_depth = depth;
+    float shown_depth = opaque_depth;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
         const bool is_last = !has_opaque && i + 1 == sorted.size();
         const float share = is_last ? left : left * sorted[i]->coverage;
@@ -174,16 +178,22 @@ void SurfaceCanvas::composite(std::size_t pixel, std::span<const SurfaceFragment
     }
     if (has_opaque) {
         const std::array<float, 256>& linear = linear_from_srgb8_table();
-        sum += left * static_cast<float>(kLinearOne) * glm::vec3{linear[colour.r], linear[colour.g], linear[colour.b]};
-        if (left >= largest_share) shown_depth = depth;
+        sum += left * static_cast<float>(kLinearOne) *
+               glm::vec3{linear[opaque_colour.r], linear[opaque_colour.g], linear[opaque_colour.b]};
+        if (left >= largest_share) shown_depth = opaque_depth;
     }
     const SrgbParabolas& parabolas = srgb_parabolas();
     const auto encoded = [&](float linear) {
         const float bounded = std::clamp(linear + 0.5F, 0.0F, static_cast<float>(kLinearOne));
         return srgb8_from_linear15(static_cast<std::int32_t>(bounded), parabolas);
     };
-    colour = {encoded(sum.x), encoded(sum.y), encoded(sum.z), 255};
-    depth = shown_depth;
+    const Rgba8 colour{encoded(sum.x), encoded(sum.y), encoded(sum.z), 255};
+    if (!has_opaque && covered < kWholeCover) {
+        partly_covered_.push_back({static_cast<std::uint32_t>(pixel), covered, shown_depth, colour});
+        if (covered < kCoveredEnough) return;
+    }
+    frame_->colour.pixels()[pixel] = colour;
+    frame_->depth.pixels()[pixel] = shown_depth;
 }
 
 }  // namespace lw

@@ -29,6 +29,8 @@ public:
 
     [[nodiscard]] DisplayFrame& frame() const { return *frame_; }
     [[nodiscard]] RowRange band() const { return band_; }
+    /// After finish(): pixels of the band that are covered in part, with nothing behind.
+    [[nodiscard]] const std::vector<PartlyCovered>& partly_covered() const { return partly_covered_; }
     /// Since begin().
     [[nodiscard]] SurfaceSkips& skips() { return skips_; }
     [[nodiscard]] const SurfaceSkips& skips() const { return skips_; }
@@ -87,6 +89,7 @@ private:
     std::array<std::int32_t, kStretch> newest_{};  // of each pixel of a stretch: its newest fragment, or -1
     std::vector<std::uint32_t> touched_;           // pixels of a stretch that have fragments
     std::vector<const SurfaceFragment*> many_sorted_;
+    std::vector<PartlyCovered> partly_covered_;
 };
 
 }  // namespace lw

@@ -8,6 +8,7 @@
 #include "core/colour.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_links.h"
+#include "warp_server/methods/surface_shares.h"
 #include "warp_server/methods/surface_tiles.h"
 #include "warp_server/methods/surface_tolerances.h"
 #include "warp_server/methods/surface_writer.h"
@@ -221,7 +222,10 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     prepared->size_px = pixels.depth.size_px();
     const SurfaceLinks links{pixels};
     PatchBuilder{links, *prepared}.build();
-    if (use == SurfaceUse::cpu_kernels) prepared->linear = LinearImage{pixels.colour};
+    if (use == SurfaceUse::cpu_kernels) {
+        prepared->linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
+        if (prepared->linear.has_alpha()) halve_lacks_of_thin_things(links, prepared->linear);
+    }
     prepared->id_counts = count_ids(pixels);
     prepared->cost_until = accumulated_costs(*prepared);
     return prepared;

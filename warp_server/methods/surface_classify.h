@@ -57,7 +57,7 @@ struct PreparedSurface final : PreparedLayer {
     PatchList patches;   ///< small ones: where surfaces are curved, and around edges
     SurfaceTiles tiles;  ///< edges between planes, and what lies around them
     PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
-    LinearImage linear;
+    LinearImage linear;              ///< with the pixels' shares as alpha, where they are known
     std::vector<IdCount> id_counts;  ///< by ascending id
     std::vector<float> cost_until;   ///< estimated cost of drawing all patches before each source row, and of all
 };

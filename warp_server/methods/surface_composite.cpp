@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 
 #include "core/colour.h"
@@ -162,7 +163,23 @@ private:
         };
         const auto enough = hn::Or(has_opaque, hn::Ge(covered, hn::Set(DF{}, 0.5F)));
         const auto shown = hn::And(enough, hn::Gt(kept, hn::Zero(DF{})));
-        write(encoder_.encoded({whole(red), whole(green), whole(blue)}), depth, bits_of(DF{}, shown), too_many);
+        const auto written = encoder_.encoded({whole(red), whole(green), whole(blue)});
+        write(written, depth, bits_of(DF{}, shown), too_many);
+        const auto any = hn::Gt(covered, hn::Zero(DF{}));
+        const auto partly = hn::AndNot(has_opaque, hn::And(any, hn::Lt(covered, hn::Set(DF{}, kWholeCover))));
+        const std::uint32_t bits = bits_of(DF{}, partly) & ~too_many & ((1U << count_) - 1U);
+        if (bits != 0) keep_partly_covered(bits, covered);
+    }
+
+    // After write().
+    HWY_INLINE void keep_partly_covered(std::uint32_t bits, VF covered) {
+        HWY_ALIGN float shares[kMaxLanes];
+        hn::Store(covered, DF{}, shares);
+        for (; bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+            lists_.partly_covered->push_back(
+                {lists_.first_pixel + touched_[lane], shares[lane], depth_[lane], std::bit_cast<Rgba8>(colour_[lane])});
+        }
     }
 
     HWY_INLINE void write(hn::VFromD<DU> colour, VF depth, std::uint32_t shown, std::uint32_t too_many) {

@@ -6,8 +6,10 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <vector>
 
 #include "core/image.h"
+#include "warp_server/warp_method.h"
 
 namespace lw {
 
@@ -26,7 +28,12 @@ struct FragmentLists {
     std::int32_t* newest;  ///< of each pixel: its newest fragment; reset to -1 when the pixel is done
     float* depths;         ///< of what is opaque, negative where nothing is
     Rgba8* colours;
+    std::uint32_t first_pixel;                   ///< number in the picture of the first of these
+    std::vector<PartlyCovered>* partly_covered;  ///< pixels are appended
 };
+
+/// A pixel of which this share is covered counts as covered wholly: the rest changes no 8-bit colour.
+inline constexpr float kWholeCover = 1.0F - 1.0F / 256.0F;
 
 /// Pixels with more fragments go one by one.
 inline constexpr int kMostFragmentsAtOnce = 4;

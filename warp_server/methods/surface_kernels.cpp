@@ -26,6 +26,12 @@ constexpr int kFewColumnsPx = 12;  // fewer are drawn row by row no faster than 
 constexpr int kLongRowPx = 64;     // from here on finding out where a row begins and ends pays
 constexpr int kSmallBoxPx = 3;     // a cell's box is one to three pixels wide unless it is magnified
 
+// How far the shares of pixels count: what stands still shows the source as it is.
+float share_trust(float moved_px) {
+    constexpr float kFullyMovedPx = 0.25F;
+    return std::min(moved_px / kFullyMovedPx, 1.0F);
+}
+
 // Within a narrow box of target pixels, lanes run over several of its rows: lane k of a box w wide is at (k % w, k /
 // w).
 struct LaneOffsets {
@@ -141,6 +147,7 @@ private:
                 if (band_.counts_skips()) skips_.empty += hn::CountTrue(d, group);
                 continue;
             }
+            share_trust_ = static_cast<std::int32_t>(kFullTrust * share_trust(matrix->moved_px)) << kTrustShift;
             PlacedPatches placed;
             const std::uint32_t bits = place_patches(d, list, first, *matrix, group, band_, placed, behind_, skips_);
             if (bits != 0) paint(first, bits, placed, d);
@@ -220,7 +227,7 @@ private:
                                 hn::Add(origin_y, solved.dy));
                 } else {
                     fragments_.push(inside, pixel, solved.depth, hn::ConvertTo(DI{}, origin_x),
-                                    hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, corners);
+                                    hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, trusted(corners));
                 }
             }
         }
@@ -242,7 +249,7 @@ private:
                 queue_.push(inside, pixel, solved.depth, hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy));
             } else {
                 fragments_.push(inside, pixel, solved.depth, hn::ConvertTo(DI{}, origin_x),
-                                hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, hn::Set(DI{}, corners));
+                                hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, trusted(hn::Set(DI{}, corners)));
             }
         };
         solve_box(patch, lane, placed, push);
@@ -354,7 +361,7 @@ private:
             fragments_.push(fragment, pixel, solved.depth, hn::Add(hn::ConvertTo(DI{}, origin_x), cell_x),
                             hn::Add(hn::ConvertTo(DI{}, origin_y), cell_y),
                             hn::Sub(solved.dx, hn::ConvertTo(DF{}, cell_x)),
-                            hn::Sub(solved.dy, hn::ConvertTo(DF{}, cell_y)), corners);
+                            hn::Sub(solved.dy, hn::ConvertTo(DF{}, cell_y)), trusted(corners));
         };
         if (placed.x_end[lane] - placed.x_begin[lane] >= kFewColumnsPx && target_width_ >= lanes()) {
             solve_rows(patch, lane, placed,
@@ -373,6 +380,11 @@ private:
                     queue_.push(whole, pixel, solved.depth, hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy));
                 });
             });
+    }
+
+    // For FragmentQueue.
+    [[nodiscard]] HWY_INLINE hn::VFromD<DI> trusted(hn::VFromD<DI> corners) const {
+        return hn::Or(corners, hn::Set(DI{}, share_trust_));
     }
 
     [[nodiscard]] static HWY_INLINE int lanes() { return static_cast<int>(hn::Lanes(DF{})); }
@@ -394,6 +406,7 @@ private:
     TargetBand band_;
     SurfaceSkips& skips_;
     float* depths_;
+    std::int32_t share_trust_ = 0;  // of the object whose patches are painted
 };
 
 void draw_patches_here(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,

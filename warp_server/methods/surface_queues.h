@@ -10,6 +10,7 @@
 #endif
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 
 #include "warp_server/methods/lanes.h"
@@ -145,17 +146,24 @@ public:
             const std::size_t end = std::min(lanes, count_ - i);
             for (std::size_t lane = 0; lane < end; ++lane) {
                 const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
-                const float shown = depths_[pixel];
-                if (shown > depth_[i + lane]) continue;
-                if (shown == depth_[i + lane] && colours_[pixel] >= colours[lane]) continue;
-                depths_[pixel] = depth_[i + lane];
-                colours_[pixel] = colours[lane];
+                // Without branches, which nothing could predict.
+                const std::int64_t shown = key_of(depths_[pixel], colours_[pixel]);
+                const std::int64_t best = std::max(shown, key_of(depth_[i + lane], colours[lane]));
+                depths_[pixel] = std::bit_cast<float>(static_cast<std::int32_t>(best >> 32));
+                colours_[pixel] = static_cast<std::uint32_t>(best);
             }
         }
         count_ = 0;
     }
 
 private:
+    // Grows with the depth, then with the colour. Depths are >= 0, or negative where nothing is shown; as whole numbers
+    // they are in the same order, but for -0.
+    [[nodiscard]] static HWY_INLINE std::int64_t key_of(float depth, std::uint32_t colour) {
+        const auto high = static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(depth + 0.0F));
+        return static_cast<std::int64_t>(high << 32U | colour);
+    }
+
     const ColourReader& reader_;
     const ColourEncoder& encoder_;
     RunQueue& runs_;
@@ -168,6 +176,9 @@ private:
     HWY_ALIGN float y_[kQueueRoom];
 };
 
+inline constexpr int kTrustShift = 8;
+inline constexpr float kFullTrust = 255.0F;
+
 /// Pixels in cells where surfaces meet: each surface weighs its own corners alone, and covers as much as they weigh.
 class FragmentQueue {
 public:
@@ -176,7 +187,7 @@ public:
 
     /// The lanes `wanted`: target pixel number `pixel` of depth `depth` shows the surface that owns `corners` (bits
     /// 1 << corner) of the source's cell at x, y, at the place u, v in it; what is outside of the cell counts as its
-    /// rim.
+    /// rim. From bit kTrustShift on `corners` has what share of kFullTrust the pixels' shares count.
     template <class M>
     HWY_INLINE void push(M wanted, hn::VFromD<DI> pixel, VF depth, hn::VFromD<DI> x, hn::VFromD<DI> y, VF u, VF v,
                          hn::VFromD<DI> corners) {
@@ -201,6 +212,15 @@ public:
 
 private:
     static constexpr float kSmallestCoverage = 1.0F / 512.0F;  // less changes no 8-bit colour
+    static constexpr float kLeastWeight =
+        1e-3F;  // a surface has a colour where none of its own corners weighs anything
+
+    [[nodiscard]] static HWY_INLINE VF left_of(hn::VFromD<DU> pair) {
+        return hn::ConvertTo(DF{}, hn::BitCast(DI{}, hn::And(pair, hn::Set(DU{}, 0xFFFFU))));
+    }
+    [[nodiscard]] static HWY_INLINE VF right_of(hn::VFromD<DU> pair) {
+        return hn::ConvertTo(DF{}, hn::BitCast(DI{}, hn::ShiftRight<16>(pair)));
+    }
 
     HWY_INLINE void flush_vector(std::size_t i) {
         const VF one = hn::Set(DF{}, 1.0F);
@@ -217,21 +237,42 @@ private:
         const auto own = [&](int corner, VF weight) {
             return hn::IfThenElseZero(hn::RebindMask(DF{}, hn::TestBit(corners, hn::Set(DI{}, 1 << corner))), weight);
         };
-        const VF weight0 = own(0, hn::Mul(hn::Sub(one, u), hn::Sub(one, v)));
-        const VF weight1 = own(1, hn::Mul(u, hn::Sub(one, v)));
-        const VF weight2 = own(2, hn::Mul(hn::Sub(one, u), v));
-        const VF weight3 = own(3, hn::Mul(u, v));
-        const VF coverage = hn::Add(hn::Add(weight0, weight1), hn::Add(weight2, weight3));
-        const VF scale = hn::Div(one, coverage);
+        const VF area0 = hn::Mul(hn::Sub(one, u), hn::Sub(one, v));
+        const VF area1 = hn::Mul(u, hn::Sub(one, v));
+        const VF area2 = hn::Mul(hn::Sub(one, u), v);
+        const VF area3 = hn::Mul(u, v);
         const Taps taps{x, y, hn::Zero(DI{}), hn::Zero(DI{})};
+        VF coverage = hn::Add(hn::Add(own(0, area0), own(1, area1)), hn::Add(own(2, area2), own(3, area3)));
+        VF least = hn::Zero(DF{});
+        if (reader_.has_shares()) {
+            // The edge runs where the shares of the pixels beside it say: what its own pixels lack moves it inwards,
+            // what the others lack outwards. Less so where the picture hardly moves, which shows the source as it is.
+            const VF whole = hn::Set(DF{}, static_cast<float>(kLinearOne));
+            const VF trust = hn::Mul(hn::ConvertTo(DF{}, hn::ShiftRight<kTrustShift>(corners)),
+                                     hn::Set(DF{}, 1.0F / (kFullTrust * static_cast<float>(kLinearOne))));
+            const PixelPairs shares = reader_.pairs_at(taps, kShareChannel);
+            const auto lack = [&](VF area, VF share) { return hn::Mul(area, hn::Sub(whole, share)); };
+            const VF lack0 = lack(area0, left_of(shares.top));
+            const VF lack1 = lack(area1, right_of(shares.top));
+            const VF lack2 = lack(area2, left_of(shares.bottom));
+            const VF lack3 = lack(area3, right_of(shares.bottom));
+            const VF all = hn::Add(hn::Add(lack0, lack1), hn::Add(lack2, lack3));
+            const VF inwards = hn::Add(hn::Add(own(0, lack0), own(1, lack1)), hn::Add(own(2, lack2), own(3, lack3)));
+            const auto mean = [](VF sum, VF area) { return hn::Div(sum, hn::Max(area, hn::Set(DF{}, kLeastWeight))); };
+            const VF shift = hn::Sub(mean(hn::Sub(all, inwards), hn::Sub(one, coverage)), mean(inwards, coverage));
+            coverage = hn::Min(hn::Max(hn::Add(coverage, hn::Mul(trust, shift)), hn::Zero(DF{})), one);
+            least = hn::Set(DF{}, kLeastWeight);
+        }
+        const VF weight0 = own(0, hn::Add(area0, least));
+        const VF weight1 = own(1, hn::Add(area1, least));
+        const VF weight2 = own(2, hn::Add(area2, least));
+        const VF weight3 = own(3, hn::Add(area3, least));
+        const VF scale = hn::Div(one, hn::Add(hn::Add(weight0, weight1), hn::Add(weight2, weight3)));
         const auto channel = [&](int index) {
             const PixelPairs pairs = reader_.pairs_at(taps, index);
-            const auto half = [](hn::VFromD<DU> bits) { return hn::ConvertTo(DF{}, hn::BitCast(DI{}, bits)); };
-            const auto low = hn::Set(DU{}, 0xFFFFU);
-            const VF top = hn::Add(hn::Mul(weight0, half(hn::And(pairs.top, low))),
-                                   hn::Mul(weight1, half(hn::ShiftRight<16>(pairs.top))));
-            const VF bottom = hn::Add(hn::Mul(weight2, half(hn::And(pairs.bottom, low))),
-                                      hn::Mul(weight3, half(hn::ShiftRight<16>(pairs.bottom))));
+            const VF top = hn::Add(hn::Mul(weight0, left_of(pairs.top)), hn::Mul(weight1, right_of(pairs.top)));
+            const VF bottom =
+                hn::Add(hn::Mul(weight2, left_of(pairs.bottom)), hn::Mul(weight3, right_of(pairs.bottom)));
             return hn::Mul(hn::Add(top, bottom), scale);
         };
         HWY_ALIGN float covered[kMaxLanes];

@@ -39,12 +39,15 @@ struct PixelPairs {
     hn::VFromD<DU> bottom;
 };
 
+inline constexpr int kShareChannel = 3;
+
 /// Reads one source image.
 class ColourReader {
 public:
     /// `image` outlives this.
     explicit ColourReader(const LinearImage& image)
         : values_{image.data()},
+          has_shares_{image.has_alpha()},
           channel_stride_{image.channel_stride()},
           row_stride_{image.row_stride()},
           last_{static_cast<float>(image.size_px().x - 1), static_cast<float>(image.size_px().y - 1)} {}
@@ -68,7 +71,10 @@ public:
         return {channel(0), channel(1), channel(2)};
     }
 
-    /// The four pixels at each tap, of channel 0 (red), 1 or 2.
+    /// Is there a fourth channel: which share of each pixel its surface covers?
+    [[nodiscard]] bool has_shares() const { return has_shares_; }
+
+    /// The four pixels at each tap, of channel 0 (red), 1, 2 or kShareChannel.
     [[nodiscard]] HWY_INLINE PixelPairs pairs_at(const Taps& taps, int channel) const {
         const std::uint16_t* values = values_ + channel * channel_stride_;
 #if LW_HAS_WIDE_LOOKUPS
@@ -170,6 +176,7 @@ private:
     }
 
     const std::uint16_t* values_;
+    bool has_shares_;
     std::ptrdiff_t channel_stride_;
     std::ptrdiff_t row_stride_;
     std::array<float, 2> last_;

@@ -28,11 +28,13 @@ void declare_shells(Declarer& declare) {
                       shells.on = text != "off";
                       shells.shells = shells.on && text != "auto" ? static_cast<int>(*parsed_number(text)) : 0;
                   });
-    declare.value("--shell-samples", "N", "NxN samples per pixel of the outer shells: 1, 2 or 4 (2)",
+    declare.value("--shell-samples", "N", "NxN samples per pixel of the outer shells: 1, 2 or 4 (1)",
                   [&shells](const std::string& text) {
                       check_name("number of samples", "--shell-samples", text, {"1", "2", "4"});
                       shells.samples_per_axis = static_cast<int>(*parsed_number(text));
                   });
+    declare.number("--shell-density", "D", {1.0, 2.0}, shells.density,
+                   "pixels of the outer shells per display pixel and axis at the centre (1.5)");
     declare.value("--app-budget", "auto|MS", "shells: time to draw in per frame; auto: as one main view takes (auto)",
                   [&shells](const std::string& text) {
                       shells.budget_ms.reset();

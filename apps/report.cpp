@@ -129,6 +129,7 @@ void describe_settings(Report& report, const Options& options) {
     if (options.shells.on) {
         options.shells.shells == 0 ? set("shells", "auto") : set("shells", options.shells.shells);
         set("shell_samples", options.shells.samples_per_axis);
+        set("shell_density", options.shells.density);
         set("max_age_s", options.shells.max_age_s);
     } else {
         set("shells", "off");

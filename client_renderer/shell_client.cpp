@@ -17,7 +17,12 @@ constexpr int kProbePx = 64;
 constexpr int kDisplayProbes = 8;
 // Of the budget: the view is drawn with less around and behind it where it would take more, outer tiles with fewer
 // samples.
-constexpr double kMostForTheView = 0.8;
+constexpr double kMostForTheView = 0.85;
+// Tiles hold what an eye that moves by so much may see; what it sees beyond, the server reports. At 2.8 m, as far as
+// shells overlap in `city`, hardly anything hides anything, and a tile took more than the budget.
+constexpr double kTileReveal_m = 0.5;
+// Of the nearest shell's reach: so far the head walks before its ranges are thought over.
+constexpr double kReconsiderRanges = 0.5;
 constexpr double kMostForATile = 0.5;
 constexpr double kEnoughOfTheBudget = 0.92;  // costs vary: this much of it is planned with
 
@@ -61,9 +66,10 @@ ShellClient::ShellClient(SceneRenderer& renderer, const Camera& display, const S
       source_{source},
       settings_{settings},
       prepare_{std::move(prepare)},
-      tiles_{display, settings.density, settings.tiles_per_side},
+      tiles_{display, 1.0, settings.tiles_per_side},
+      outer_tiles_{display, settings.density, settings.tiles_per_side},
       items_(1 + kMostShells * static_cast<std::size_t>(tiles_.count())),
-      costs_{items_.size() + kViewPlans.size()} {}
+      costs_{items_.size()} {}
 
 // What an item is.
 
@@ -93,53 +99,46 @@ ScenePart ShellClient::part_of(std::size_t item) const {
 }
 
 Camera ShellClient::camera_of(std::size_t item, const ShellMoment& moment) const {
-    if (item == kView) {
-        const bool band = kViewPlans[plan_].guard_band;
-        return at_pose(band ? moment.source : source_camera(display_, source_.density, 0.0), moment.shown_middle);
-    }
-    return tiles_.camera(tile_of(item), moment.shown_middle.position_m);
+    if (item == kView) return view_camera(plan_, moment);
+    const ShellTiles& tiles = shell_of(item) > 0 && outer_dense_ ? outer_tiles_ : tiles_;
+    return tiles.camera(tile_of(item), moment.shown_middle.position_m);
 }
 
 int ShellClient::samples_of(std::size_t item) const {
     return shell_of(item) == 0 ? source_.samples_per_axis : outer_samples_;
 }
 
-// What the view costs.
+// What the view costs, and how finely everything is drawn.
 
-double ShellClient::guessed_view_ms(const ViewPlan& plan, const ShellMoment& moment) const {
-    const Camera plain = source_camera(display_, source_.density, 0.0);
-    const double layers = plan.hidden ? 2.0 : 1.0;
-    const double samples =
-        pixel_count(plan.guard_band ? moment.source : plain) * source_.samples_per_axis * source_.samples_per_axis;
-    // Of a hidden layer few pixels hold something.
-    return modelled_cost_ms(layers * main_view_triangles_, layers * samples,
-                            (plan.hidden ? 1.2 : 1.0) * main_view_covered_ * samples);
+Camera ShellClient::view_camera(const ViewPlan& plan, const ShellMoment& moment) const {
+    Camera camera = plan.guard_band ? moment.source : source_camera(display_, source_.density, 0.0);
+    camera.size_px = {std::lround(plan.density * camera.size_px.x), std::lround(plan.density * camera.size_px.y)};
+    return at_pose(camera, moment.shown_middle);
 }
 
-double ShellClient::expected_view_ms(std::size_t plan, const ShellMoment& moment) const {
-    const double guess_ms = guessed_view_ms(kViewPlans[plan], moment);
-    if (costs_.knows(items_.size() + plan)) return costs_.expected_ms(items_.size() + plan, guess_ms);
-    // What another plan cost says how much of everything is near.
-    for (std::size_t known = 0; known < kViewPlans.size(); ++known) {
-        if (!costs_.knows(items_.size() + known)) continue;
-        return costs_.expected_ms(items_.size() + known, 0.0) * guess_ms / guessed_view_ms(kViewPlans[known], moment);
-    }
-    return guess_ms;
+double ShellClient::expected_view_ms(const ViewPlan& plan, const ShellMoment& moment) const {
+    return view_costs_.expected_ms(
+        plan, pixel_count(view_camera(plan, moment)) * source_.samples_per_axis * source_.samples_per_axis);
+}
+
+double ShellClient::expected_ms(std::size_t item, const ShellMoment& moment) const {
+    return item == kView ? expected_view_ms(plan_, moment) : costs_.expected_ms(item, guessed_cost_ms(item));
 }
 
 void ShellClient::plan_view(const ShellMoment& moment, double budget_ms) {
-    plan_ = kViewPlans.size() - 1;
-    for (std::size_t plan = 0; plan < kViewPlans.size(); ++plan) {
-        if (kViewPlans[plan].hidden && source_.layers < 2) continue;
-        if (expected_view_ms(plan, moment) > kMostForTheView * budget_ms) continue;
+    for (const ViewPlan& plan : view_plans()) {
+        if (plan.hidden && source_.layers < 2) continue;
         plan_ = plan;
-        return;
+        if (expected_view_ms(plan, moment) <= kMostForTheView * budget_ms) return;
     }
 }
 
-void ShellClient::choose_samples(double budget_ms) {
+void ShellClient::choose_outer_quality(double budget_ms) {
     outer_samples_ = settings_.samples_per_axis;
-    while (outer_samples_ > 1 && guessed_cost_ms(item_count() - 1) > kMostForATile * budget_ms) outer_samples_ /= 2;
+    outer_dense_ = true;
+    const auto costs_too_much = [&] { return guessed_cost_ms(item_count() - 1) > kMostForATile * budget_ms; };
+    if (costs_too_much()) outer_dense_ = false;
+    while (outer_samples_ > 1 && costs_too_much()) outer_samples_ /= 2;
 }
 
 // Ranges and budget.
@@ -160,17 +159,30 @@ std::vector<double> ShellClient::distances_around(const ShellMoment& moment) {
     return distances_m;
 }
 
-void ShellClient::choose_ranges(const ShellMoment& moment) {
+void ShellClient::set_ranges(std::span<const double> distances_m, const ShellMoment& moment) {
+    ranges_from_ = moment.shown_middle.position_m;
     ShellRangeSettings settings;
     settings.shells = settings_.shells;
     settings.pixels_per_tangent = display_.size_px.y / (display_.fov.up - display_.fov.down);
-    const std::vector<ShellRange> wanted = shell_ranges(settings, distances_around(moment));
+    const std::vector<ShellRange> wanted = shell_ranges(settings, distances_m);
     if (!ranges_outdated(ranges_, wanted)) return;
     ranges_ = wanted;
     for (std::size_t item = 0; item < items_.size(); ++item) {
         items_[item].outdated = true;
         if (item >= item_count()) items_[item] = {};
     }
+}
+
+// After a walk through half of the nearest shell, from what the items hold: no picture is drawn for it.
+void ShellClient::reconsider_ranges(const ShellMoment& moment) {
+    const double walked_m = glm::distance(moment.shown_middle.position_m, ranges_from_);
+    if (walked_m < kReconsiderRanges * ranges_[0].farthest_m) return;
+    std::vector<double> distances_m;
+    for (std::size_t i = 1; i < item_count(); ++i) {
+        const std::vector<double>& seen_m = items_[i].statistics.ray_m;
+        distances_m.insert(distances_m.end(), seen_m.begin(), seen_m.end());
+    }
+    set_ranges(distances_m, moment);
 }
 
 void ShellClient::learn_main_view(const ShellMoment& moment) {
@@ -186,6 +198,7 @@ void ShellClient::learn_main_view(const ShellMoment& moment) {
     }
     main_view_triangles_ = static_cast<double>(renderer_.counters().triangles_drawn);
     main_view_covered_ = statistics_of(layer).surface_px / pixel_count(layer.camera);
+    view_costs_.start(main_view_triangles_, main_view_covered_);
 }
 
 double ShellClient::budget_ms(const ShellMoment& moment) const {
@@ -281,9 +294,10 @@ ItemOutlook ShellClient::outlook(std::size_t index, const ShellMoment& moment) c
 }
 
 double ShellClient::guessed_cost_ms(std::size_t item) const {
-    const double scale = item == kView ? 1.0 : 1.0 / (settings_.tiles_per_side * settings_.tiles_per_side);
-    const double samples = scale * pixel_count(display_) * samples_of(item) * samples_of(item);
-    return modelled_cost_ms(scale * main_view_triangles_, samples, main_view_covered_ * samples);
+    const double share = tiles_.display_pixels() / pixel_count(display_);
+    const double samples = pixel_count(camera_of(item, {})) * static_cast<double>(samples_of(item)) *
+                           static_cast<double>(samples_of(item));
+    return modelled_cost_ms(share * main_view_triangles_, samples, main_view_covered_ * samples);
 }
 
 // Drawing.
@@ -297,27 +311,28 @@ double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
     layer->scene_time_s = moment.scene_time_s;
     const ScenePart part = part_of(index);
     const int samples = samples_of(index);
-    renderer_.set_reveal_margin(std::max(moment.head_motion_m, index == kView ? 0.0 : ranges_[0].overlap_m));
+    renderer_.set_reveal_margin(std::max(moment.head_motion_m, index == kView ? 0.0 : kTileReveal_m));
     layer->empty_pixels = renderer_.draw_part(layer->camera, layer->scene_time_s, samples, part, layer->cpu());
     add(counters_, renderer_.counters());
-    auto triangles = static_cast<double>(renderer_.counters().triangles_drawn);
+    ViewCosts::Drawn drawn;
+    drawn.triangles = static_cast<double>(renderer_.counters().triangles_drawn);
+    drawn.samples = pixel_count(layer->camera) * samples * samples;
     renderer_.mover_placements(layer->scene_time_s, layer->movers);
     Item& item = items_[index];
     item.statistics = statistics_of(*layer);
     layer->content = {static_cast<std::uint32_t>(index), static_cast<std::uint16_t>(shell_of(index)),
                       item.statistics.mover_px == 0.0, item.statistics.nearest_depth, item.statistics.nearest_ray_m};
-    double covered = item.statistics.surface_px;
-    double pixels = pixel_count(layer->camera);
+    drawn.covered = item.statistics.surface_px * samples * samples;
     if (index == kView) item.hidden = nullptr;
-    if (index == kView && source_.layers == 2 && kViewPlans[plan_].hidden) {
+    if (index == kView && source_.layers == 2 && plan_.hidden) {
         const std::shared_ptr<Layer> hidden = draw_hidden(*layer, moment);
         add(counters_, renderer_.counters());
-        triangles += static_cast<double>(renderer_.counters().triangles_drawn);
-        pixels *= 2.0;
-        covered += pixel_count(hidden->camera) - static_cast<double>(hidden->empty_pixels);
+        drawn.hidden_triangles = static_cast<double>(renderer_.counters().triangles_drawn);
+        drawn.hidden_covered =
+            (pixel_count(hidden->camera) - static_cast<double>(hidden->empty_pixels)) * samples * samples;
         item.hidden = hidden;
     }
-    double cost_ms = modelled_cost_ms(triangles, pixels * samples * samples, covered * samples * samples);
+    double cost_ms = ViewCosts::modelled_ms(drawn);
     if (settings_.clock != nullptr) cost_ms = to_ms(settings_.clock->now() - begin);
     if (prepare_) prepare_(layer);
     item.layer = std::move(layer);
@@ -325,7 +340,11 @@ double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
     item.outdated = false;
     item.holes_px = 0.0;
     item.hole_frames = 0.0;
-    costs_.learn(cost_index(index), cost_ms);
+    if (index == kView) {
+        view_costs_.learn(drawn, cost_ms);
+    } else {
+        costs_.learn(index, cost_ms);
+    }
     return cost_ms;
 }
 
@@ -339,9 +358,9 @@ std::shared_ptr<Layer> ShellClient::draw_hidden(const Layer& first, const ShellM
 
 void ShellClient::warm_up(const ShellMoment& moment) {
     learn_main_view(moment);
-    choose_ranges(moment);
-    choose_samples(budget_ms(moment));
-    plan_ = source_.layers == 2 ? 0 : 2;
+    set_ranges(distances_around(moment), moment);
+    choose_outer_quality(budget_ms(moment));
+    plan_ = {1.0, true, source_.layers == 2};
     for (std::size_t item = 0; item < item_count(); ++item) (void)draw_item(item, moment);
 }
 
@@ -358,6 +377,7 @@ void ShellClient::take(const HoleFeedback& feedback) {
 
 std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& moment) {
     if (ranges_.empty()) warm_up(moment);
+    reconsider_ranges(moment);
     counters_ = {};
     ShellFrameRecord record;
     record.now_s = moment.now_s;
@@ -368,12 +388,11 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
     for (std::size_t i = 0; i < item_count(); ++i) {
         const ItemOutlook item = outlook(i, moment);
         errors[i] = predicted_error(item, settings_.weights);
-        const double expected_ms =
-            i == kView ? expected_view_ms(plan_, moment) : costs_.expected_ms(i, guessed_cost_ms(i));
-        record.all_ms += expected_ms;
+        const double cost_ms = expected_ms(i, moment);
+        record.all_ms += cost_ms;
         // What nobody sees may wait.
         const double waiting_s = item.visible_share > 0.0 ? item.age_s : 0.0;
-        candidates.push_back({i, errors[i].sum() * error_weight(item, settings_.weights), expected_ms, waiting_s});
+        candidates.push_back({i, errors[i].sum() * error_weight(item, settings_.weights), cost_ms, waiting_s});
     }
     BudgetSettings budget{kEnoughOfTheBudget * record.budget_ms};
     budget.max_age_s = settings_.max_age_s;

@@ -19,6 +19,7 @@
 #include "client_renderer/shell_settings.h"
 #include "client_renderer/shell_tiles.h"
 #include "client_renderer/source_camera.h"
+#include "client_renderer/view_plan.h"
 #include "core/clock.h"
 #include "frame_link/hole_feedback.h"
 
@@ -57,12 +58,6 @@ struct ShellFrameRecord {
     double all_ms = 0.0;        ///< what drawing every item that exists would cost
     std::uint32_t invalid = 0;  ///< items that were wrong
     std::vector<ShellDraw> draws;
-};
-
-/// How much is drawn of the view: what the budget allows.
-struct ViewPlan {
-    bool guard_band = true;
-    bool hidden = true;
 };
 
 /// Belongs to the renderer's thread. Equal calls in equal order give equal frames where costs are modelled.
@@ -110,17 +105,14 @@ private:
     [[nodiscard]] Camera camera_of(std::size_t item, const ShellMoment& moment) const;
     [[nodiscard]] int samples_of(std::size_t item) const;
 
-    /// From best to cheapest.
-    static constexpr std::array<ViewPlan, 4> kViewPlans{{{true, true}, {false, true}, {true, false}, {false, false}}};
     void plan_view(const ShellMoment& moment, double budget_ms);
-    void choose_samples(double budget_ms);
-    [[nodiscard]] double expected_view_ms(std::size_t plan, const ShellMoment& moment) const;
-    [[nodiscard]] double guessed_view_ms(const ViewPlan& plan, const ShellMoment& moment) const;
-    [[nodiscard]] std::size_t cost_index(std::size_t item) const {
-        return item == kView ? items_.size() + plan_ : item;
-    }
+    void choose_outer_quality(double budget_ms);
+    [[nodiscard]] Camera view_camera(const ViewPlan& plan, const ShellMoment& moment) const;
+    [[nodiscard]] double expected_view_ms(const ViewPlan& plan, const ShellMoment& moment) const;
+    [[nodiscard]] double expected_ms(std::size_t item, const ShellMoment& moment) const;
 
-    void choose_ranges(const ShellMoment& moment);
+    void set_ranges(std::span<const double> distances_m, const ShellMoment& moment);
+    void reconsider_ranges(const ShellMoment& moment);
     void learn_main_view(const ShellMoment& moment);
     [[nodiscard]] double budget_ms(const ShellMoment& moment) const;
     [[nodiscard]] std::vector<double> distances_around(const ShellMoment& moment);
@@ -143,10 +135,14 @@ private:
     ShellSettings settings_;
     std::function<void(const std::shared_ptr<Layer>&)> prepare_;
     ShellTiles tiles_;
+    ShellTiles outer_tiles_;  ///< the same tiles as finely as the outer shells have them
     LayerPool pool_;
     std::vector<ShellRange> ranges_;
-    int outer_samples_ = 1;  ///< per axis
-    std::size_t plan_ = 0;   ///< of the view being drawn, index in kViewPlans
+    glm::dvec3 ranges_from_{0.0};  ///< where the eye was when they were last thought over
+    int outer_samples_ = 1;        ///< per axis
+    bool outer_dense_ = true;      ///< whether outer tiles are those of outer_tiles_
+    ViewPlan plan_;                ///< of the view being drawn
+    ViewCosts view_costs_;
     std::vector<Item> items_;
     CostBook costs_;
     double main_view_triangles_ = 0.0;     ///< of one view of everything, at the start

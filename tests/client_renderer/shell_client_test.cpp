@@ -15,6 +15,8 @@ namespace {
 class TwoSpheres final : public SceneRenderer {
 public:
     std::optional<glm::dvec3> mover_at;
+    double below_m = 2.0;
+    double above_m = 40.0;
     std::vector<ScenePart> parts;
 
     void draw(const Camera& camera, double /*scene_time_s*/, CpuPixels& pixels) override { fill(camera, {}, pixels); }
@@ -49,7 +51,7 @@ private:
                     glm::dvec3{source_eye_from_source_px(camera).matrix * glm::dvec4{x + 0.5, y + 0.5, 1.0, 0.0}};
                 const glm::dvec3 direction = glm::normalize(camera.world_from_eye.orientation * h);
                 const bool on_mover = mover_at && part.movers && glm::dot(direction, *mover_at) > 0.99;
-                const double ray_m = on_mover ? 1.5 : direction.y < 0.0 ? 2.0 : 40.0;
+                const double ray_m = on_mover ? 1.5 : direction.y < 0.0 ? below_m : above_m;
                 const bool inside = on_mover || (ray_m >= part.nearest_m && ray_m < part.farthest_m);
                 if (!inside || part.behind != nullptr) continue;
                 pixels.depth.at(x, y) = static_cast<float>(camera.near_m * glm::length(h) / ray_m);
@@ -68,6 +70,7 @@ protected:
     ShellClientTest() {
         settings_.on = true;
         settings_.shells = 2;
+        settings_.tiles_per_side = 2;
         settings_.budget_ms = 4.0;
     }
 
@@ -167,6 +170,37 @@ TEST_F(ShellClientTest, WhatTheServerCouldNotExplainIsDrawn) {
     deaf.take(feedback);
     (void)deaf.draw(moment(0.1));
     EXPECT_TRUE(deaf.records().back().draws.empty());
+}
+
+TEST_F(ShellClientTest, RangesFollowWhatIsAroundAfterAWalkAndNotBefore) {
+    ShellClient shells = client();
+    settings_.budget_ms = 1000.0;
+    (void)shells.draw(moment(0.0));
+    const double cut_m = shells.ranges().front().farthest_m;
+    // What the items hold says how far everything is; a cut moves only for more than a factor of 2.
+    renderer_.below_m = renderer_.above_m = 4.2 * cut_m;
+    for (int frame = 1; frame < 30; ++frame) (void)shells.draw(moment(0.1 * frame, {0.0, 0.0, 0.01 * frame}));
+    EXPECT_EQ(shells.ranges().front().farthest_m, cut_m) << "stood nearly still";
+    bool outdated = false;
+    for (int frame = 30; frame < 300; ++frame) {
+        (void)shells.draw(moment(0.1 * frame, {0.0, 0.0, 0.1 * frame}));
+        outdated = outdated || shells.ranges().front().farthest_m > 2.0 * cut_m;
+    }
+    EXPECT_TRUE(outdated);
+}
+
+TEST_F(ShellClientTest, ATurnThatWidensTheGuardBandKeepsTheBudget) {
+    settings_.budget_ms.reset();
+    ShellClient shells = client();
+    for (int frame = 0; frame < 40; ++frame) {
+        ShellMoment at = moment(0.1 * frame, {0.0, 0.0, -0.1 * frame}, 0.05 * frame);
+        at.source = with_guard_band(display_, frame % 10 < 5 ? 0.0 : 0.17);
+        (void)shells.draw(at);
+    }
+    for (std::size_t frame = 1; frame < shells.records().size(); ++frame) {
+        const ShellFrameRecord& record = shells.records()[frame];
+        EXPECT_LE(record.spent_ms, record.budget_ms) << "frame " << frame;
+    }
 }
 
 TEST_F(ShellClientTest, EqualCallsGiveEqualSchedules) {

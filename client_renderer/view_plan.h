@@ -1,0 +1,56 @@
+#pragma once
+/// How finely the nearest shell is drawn where the head looks, and with how much around and behind it: as the budget
+/// allows.
+
+#include <array>
+#include <optional>
+#include <span>
+
+namespace lw {
+
+struct ViewPlan {
+    double density = 1.0;  ///< times the source's density
+    bool guard_band = true;
+    bool hidden = true;
+};
+
+/// From best to cheapest. A denser picture comes before a guard band, because older tiles of the shell stand in past
+/// the view's edge while the display's own pixels show no more than what was drawn: of a walk through `city` density
+/// 1.5 takes a fifth of FLIP off, and 2 three tenths (`replay city --trace walk --source-density`).
+[[nodiscard]] std::span<const ViewPlan> view_plans();
+
+/// What plans will cost, from what the last view held. One thread.
+class ViewCosts {
+public:
+    /// One picture of everything was drawn.
+    /// @param covered  share of its samples that show a surface
+    void start(double triangles, double covered);
+
+    /// A view was drawn: its first layer, and what is hidden behind it, where that was drawn.
+    struct Drawn {
+        double samples = 0.0;  ///< of one layer
+        double triangles = 0.0;
+        double covered = 0.0;  ///< samples that show a surface
+        std::optional<double> hidden_triangles{};
+        double hidden_covered = 0.0;
+    };
+    void learn(const Drawn& view, double cost_ms);
+
+    /// @param samples  of one layer
+    [[nodiscard]] double expected_ms(const ViewPlan& plan, double samples) const;
+
+    /// What the view that was drawn is modelled to cost.
+    [[nodiscard]] static double modelled_ms(const Drawn& view);
+
+private:
+    [[nodiscard]] double predicted_ms(bool hidden, double samples) const;
+
+    double triangles_ = 0.0;
+    double covered_ = 1.0;  // shares of the samples
+    double hidden_triangles_ = 0.0;
+    double hidden_covered_ = 0.0;
+    double measured_over_modelled_ = 1.0;
+    bool measured_ = false;
+};
+
+}  // namespace lw

@@ -1,0 +1,44 @@
+#include "client_renderer/view_plan.h"
+
+#include <gtest/gtest.h>
+
+namespace lw {
+namespace {
+
+TEST(ViewCosts, BeforeAViewWasDrawnItIsOneOfEverything) {
+    ViewCosts costs;
+    costs.start(1e5, 0.5);
+    const ViewPlan plain{1.0, false, false};
+    EXPECT_DOUBLE_EQ(costs.expected_ms(plain, 1e5), ViewCosts::modelled_ms({1e5, 1e5, 0.5e5, {}, 0.0}));
+}
+
+TEST(ViewCosts, WhatWasDrawnSaysWhatOtherSizesCost) {
+    ViewCosts costs;
+    costs.start(1e6, 1.0);
+    const ViewCosts::Drawn view{2e5, 3e4, 1e5, {}, 0.0};
+    costs.learn(view, ViewCosts::modelled_ms(view));
+    EXPECT_NEAR(costs.expected_ms({1.0, false, false}, 2e5), ViewCosts::modelled_ms(view), 1e-12);
+    EXPECT_NEAR(costs.expected_ms({2.0, false, false}, 8e5), ViewCosts::modelled_ms({8e5, 3e4, 4e5, {}, 0.0}), 1e-12);
+}
+
+TEST(ViewCosts, AMachineThatIsTwiceAsSlowIsLearned) {
+    ViewCosts costs;
+    costs.start(1e5, 0.5);
+    const ViewCosts::Drawn view{2e5, 3e4, 1e5, 2e4, 1e4};
+    costs.learn(view, 2.0 * ViewCosts::modelled_ms(view));
+    EXPECT_NEAR(costs.expected_ms({1.0, false, true}, 2e5), 2.0 * ViewCosts::modelled_ms(view), 1e-9);
+    for (int i = 0; i < 60; ++i) costs.learn(view, ViewCosts::modelled_ms(view));
+    EXPECT_NEAR(costs.expected_ms({1.0, false, true}, 2e5), ViewCosts::modelled_ms(view), 1e-9);
+}
+
+TEST(ViewCosts, PlansGetCheaperOrTradeOneThingForAnother) {
+    ASSERT_FALSE(view_plans().empty());
+    EXPECT_EQ(view_plans().back().density, 1.0);
+    EXPECT_FALSE(view_plans().back().guard_band || view_plans().back().hidden);
+    for (std::size_t i = 1; i < view_plans().size(); ++i) {
+        EXPECT_LE(view_plans()[i].density, view_plans()[i - 1].density);
+    }
+}
+
+}  // namespace
+}  // namespace lw

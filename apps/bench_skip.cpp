@@ -6,6 +6,7 @@
 #include "apps/bench_suites.h"
 #include "apps/progress.h"
 #include "apps/skip_measure.h"
+#include "apps/skip_orders.h"
 #include "frame_link/trace.h"
 #include "gl/context.h"
 #include "scene/built_in.h"
@@ -20,6 +21,8 @@ struct Findings {
     std::vector<FrameTiming> rooms;  ///< by the field of view only, through portals
     std::vector<FrameTiming> parts;  ///< the default town: nothing skipped, and one way of skipping after the other
     std::vector<RevealCheck> checks;
+    std::vector<BufferChanges> buffers;
+    std::vector<FrameTiming> orders;  ///< the default town, grouped and through buffers
 };
 
 Result<scene::Scene> scene_of(const char* name, const char* key, double value) {
@@ -73,6 +76,25 @@ Status measure_rooms(bool quick, Findings& findings) {
     return Done{};
 }
 
+Status measure_orders(bool quick, Findings& findings) {
+    const auto town = scene_of("city", "buildings", 120.0);
+    if (!town) return town.error();
+    const auto buffers = compare_buffers(*town);
+    if (!buffers) return buffers.error();
+    findings.buffers = *buffers;
+    const int frames = quick ? 4 : 12;
+    const auto grouped = time_frames(*town, {}, "grouped", frames);
+    if (!grouped) return grouped.error();
+    findings.orders.push_back(*grouped);
+    for (std::size_t s = 0; s < sorting_strategy_names().size(); ++s) {
+        const DrawOrder order{false, static_cast<SortingStrategy>(s)};
+        const auto timing = time_frames(*town, {}, sorting_strategy_names()[s], frames, order);
+        if (!timing) return timing.error();
+        findings.orders.push_back(*timing);
+    }
+    return Done{};
+}
+
 /// Every recording in the folder, and the built-in walk.
 std::vector<std::string> trace_names(const std::filesystem::path& data, bool quick) {
     std::vector<std::string> names{"walk"};
@@ -98,7 +120,7 @@ Status check_all(const Options& options, Findings& findings) {
     const auto walk = load_trace("walk");
     if (!walk) return walk.error();
     for (const double margin_m : {0.0, 0.05, 0.15, 0.3, 0.6}) {
-        const auto check = check_reveal(*town, *walk, options.quick ? 2 : 4, 2.3, margin_m);
+        const auto check = check_reveal(*town, *walk, options.quick ? 2 : 3, 2.3, margin_m);
         if (!check) return check.error();
         findings.checks.push_back(*check);
     }
@@ -144,11 +166,27 @@ void add_frames(Report& report, const std::string& path, const std::vector<Frame
         entry.set("triangles", timing.triangles);
         entry.set("objects_drawn", timing.objects_drawn);
         entry.set("triangles_drawn", timing.triangles_drawn);
+        entry.set("draw_calls", timing.draw_calls);
         entry.set("frame_ms", timing.frame_ms);
         entry.set("culling_ms", timing.culling_ms.p50);
         entry.set("culling_p99_ms", timing.culling_ms.p99);
         report.append(path, entry);
     }
+}
+
+void add_buffer(Report& report, const BufferChanges& buffer) {
+    Report entry;
+    entry.set("capacity", static_cast<std::uint64_t>(buffer.capacity));
+    entry.set("draws", static_cast<std::uint64_t>(buffer.draws));
+    entry.set("states", static_cast<std::uint64_t>(buffer.states));
+    entry.set("piece_draws", static_cast<std::uint64_t>(buffer.piece_draws));
+    for (std::size_t s = 0; s < buffer.changes.size(); ++s) {
+        const std::string& name = sorting_strategy_names()[s];
+        entry.set("changes/" + name, static_cast<std::uint64_t>(buffer.changes[s]));
+        entry.set("piece_changes/" + name, static_cast<std::uint64_t>(buffer.piece_changes[s]));
+    }
+    if (buffer.piece_fewest > 0) entry.set("piece_changes/fewest", static_cast<std::uint64_t>(buffer.piece_fewest));
+    report.append("sorting_buffer", entry);
 }
 
 /// Objects from which on the hierarchy is faster at every larger count measured.
@@ -189,6 +227,8 @@ void describe_findings(Report& report, const Findings& findings) {
         entry.set("six_one_by_one_ns", timing.one_by_one_ns);
         report.append("frustum", entry);
     }
+    add_frames(report, "draw_orders", findings.orders);
+    for (const BufferChanges& buffer : findings.buffers) add_buffer(report, buffer);
     for (const RevealCheck& check : findings.checks) {
         Report entry;
         entry.set("scene", check.scene);
@@ -221,6 +261,21 @@ SvgPlot frustum_plot(const Findings& findings) {
     return plot;
 }
 
+SvgPlot buffer_plot(const Findings& findings) {
+    SvgPlot plot{"Changes of state by size of the sorting buffer", "draws in the buffer", "changes of state"};
+    plot.log_x = true;
+    plot.log_y = true;
+    for (std::size_t s = 1; s < sorting_strategy_names().size(); ++s) {
+        SvgSeries series{sorting_strategy_names()[s], {}, {}};
+        for (const BufferChanges& buffer : findings.buffers) {
+            series.x.push_back(static_cast<double>(buffer.capacity));
+            series.y.push_back(static_cast<double>(buffer.changes[s]));
+        }
+        plot.series.push_back(series);
+    }
+    return plot;
+}
+
 SvgPlot recall_plot(const Findings& findings) {
     SvgPlot plot{"Hidden objects that are skipped, by reveal margin", "margin, m", "share"};
     plot.y_from_zero = true;
@@ -236,12 +291,12 @@ SvgPlot recall_plot(const Findings& findings) {
 
 std::vector<std::vector<std::string>> frame_table(const std::vector<FrameTiming>& timings) {
     std::vector<std::vector<std::string>> rows{
-        {"", "objects drawn", "of", "triangles drawn", "of", "frame, ms", "culling, ms", "p99"}};
+        {"", "objects drawn", "of", "triangles drawn", "of", "draw calls", "frame, ms", "culling, ms", "p99"}};
     for (const FrameTiming& timing : timings) {
         rows.push_back({timing.label, fmt::format("{}", timing.objects_drawn), fmt::format("{}", timing.objects),
                         fmt::format("{}", timing.triangles_drawn), fmt::format("{}", timing.triangles),
-                        short_number(timing.frame_ms), short_number(timing.culling_ms.p50),
-                        short_number(timing.culling_ms.p99)});
+                        fmt::format("{}", timing.draw_calls), short_number(timing.frame_ms),
+                        short_number(timing.culling_ms.p50), short_number(timing.culling_ms.p99)});
     }
     return rows;
 }
@@ -254,6 +309,8 @@ HtmlReport page_of(const Findings& findings, const std::vector<std::pair<std::st
     page.add_table(frame_table(findings.town));
     page.add_heading("The default town");
     page.add_table(frame_table(findings.parts));
+    page.add_heading("The default town, draws in different orders (the draw calls are changes of state)");
+    page.add_table(frame_table(findings.orders));
     page.add_heading("Rooms");
     page.add_table(frame_table(findings.rooms));
     for (const auto& [name, plot] : plots) page.add_plot(plot);
@@ -282,7 +339,7 @@ std::string summary_of(const Findings& findings) {
     const Totals totals = totals_of(findings.checks);
     const FrustumTiming& largest = findings.frustum.back();
     std::string text;
-    for (const auto* timings : {&findings.town, &findings.parts, &findings.rooms}) {
+    for (const auto* timings : {&findings.town, &findings.parts, &findings.orders, &findings.rooms}) {
         for (const FrameTiming& t : *timings) {
             text += fmt::format("{:<34} {:>9.1f} ms, culling {:>6.2f} ms, {:>9} triangles, {:>7} of {} objects\n",
                                 t.label, t.frame_ms, t.culling_ms.p50, t.triangles_drawn, t.objects_drawn, t.objects);
@@ -307,6 +364,7 @@ Result<BenchOutput> bench_skip(const Options& options) {
     }
     if (findings.frustum.back().objects != 524288) findings.frustum.push_back(time_frustum(524288));
     if (Status done = measure_parts(options.quick, findings); !done) return done.error();
+    if (Status done = measure_orders(options.quick, findings); !done) return done.error();
     if (Status done = measure_rooms(options.quick, findings); !done) return done.error();
     if (Status done = check_all(options, findings); !done) return done.error();
     if (Status done = measure_town(options.quick, findings); !done) return done.error();
@@ -315,7 +373,9 @@ Result<BenchOutput> bench_skip(const Options& options) {
     const Machine machine = this_machine();
     describe_machine(output.report, machine);
     describe_findings(output.report, findings);
-    output.plots = {{"frustum", frustum_plot(findings)}, {"recall", recall_plot(findings)}};
+    output.plots = {{"frustum", frustum_plot(findings)},
+                    {"recall", recall_plot(findings)},
+                    {"sorting_buffer", buffer_plot(findings)}};
     output.csv = csv_of(findings);
     output.page = page_of(findings, output.plots, text_of(machine));
     output.summary = summary_of(findings);

@@ -379,8 +379,8 @@ Status LiveSession::prepare_client(std::unique_ptr<gl::Context>& context, std::u
     context->make_current();
     client_context_ = context.get();
     textures_ = entry_.needs_gl && !context->is_software();
-    auto made_renderer =
-        SceneRenderer::create(scene_, {.culling = options_.culling, .billboards = options_.billboards});
+    auto made_renderer = SceneRenderer::create(
+        scene_, {.culling = options_.culling, .billboards = options_.billboards, .order = options_.draw_order});
     if (!made_renderer) return made_renderer.error();
     renderer = with_load(std::move(made_renderer).value(), options_.load);
     if (textures_ && options_.inject.app_ms) {

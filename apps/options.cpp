@@ -107,6 +107,23 @@ void declare_skip(Declarer& declare) {
                   [&options](const std::string& text) {
                       options.culling.min_pixels = number_in("--min-pixels", text, {0, 1000});
                   });
+    declare.value("--draw-order", "ORDER",
+                  "grouped: by distance zone and state; or by distance through a buffer: none, lru, bounded-waste, "
+                  "random, round-robin (grouped)",
+                  [&options](const std::string& text) {
+                      static const std::vector<std::string_view> names{"none",   "lru",         "bounded-waste",
+                                                                       "random", "round-robin", "grouped"};
+                      options.draw_order.grouped = text == "grouped";
+                      if (options.draw_order.grouped) return;
+                      check_name("draw order", "--draw-order", text, names);
+                      const auto place = std::ranges::find(names, text) - names.begin();
+                      options.draw_order.strategy = static_cast<SortingStrategy>(place);
+                  });
+    declare.value("--sorting-buffer", "N", "draws that the buffer of --draw-order holds (32)",
+                  [&options](const std::string& text) {
+                      options.draw_order.capacity =
+                          static_cast<std::size_t>(number_in("--sorting-buffer", text, {1, 4096, true}));
+                  });
     declare.value("--reveal-margin", "auto|M",
                   "hidden objects must be so for eyes this far; auto: as the head moves (auto)",
                   [&options](const std::string& text) {

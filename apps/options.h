@@ -11,6 +11,7 @@
 #include "apps/stereo_options.h"
 #include "billboard_lod/billboard_settings.h"
 #include "client_renderer/culling_settings.h"
+#include "client_renderer/draw_order.h"
 #include "client_renderer/shell_settings.h"
 #include "client_renderer/source_camera.h"
 #include "core/camera.h"
@@ -79,6 +80,7 @@ struct Options {
     ShellSettings shells;                   ///< --shells, --shell-samples, --app-budget, --max-age
     bool layers_given = false;              ///< with shells the nearest has a hidden layer unless this is set
     CullingSettings culling;                ///< --no-skip
+    DrawOrder draw_order;                   ///< --draw-order, --sorting-buffer
     std::optional<double> reveal_margin_m;  ///< --reveal-margin, metres; as the head moves unless given
     BillboardSettings billboards{};         ///< --billboards, --billboard-*
 

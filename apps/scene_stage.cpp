@@ -22,8 +22,8 @@ Result<SceneStage> make_stage(const Options& options) {
     if (!context) return context.error();
     stage.context = *std::move(context);
     stage.context->make_current();
-    Result<std::unique_ptr<SceneRenderer>> renderer =
-        SceneRenderer::create(*stage.scene, {.culling = options.culling, .billboards = options.billboards});
+    Result<std::unique_ptr<SceneRenderer>> renderer = SceneRenderer::create(
+        *stage.scene, {.culling = options.culling, .billboards = options.billboards, .order = options.draw_order});
     if (!renderer) return renderer.error();
     stage.renderer = *std::move(renderer);
     return stage;

@@ -7,11 +7,13 @@
 #include <numeric>
 #include <random>
 
+#include "apps/alone_in_view.h"
 #include "apps/real_clock.h"
 #include "apps/visible_objects.h"
 #include "client_renderer/box_tree.h"
 #include "client_renderer/culling.h"
 #include "client_renderer/scene_renderer.h"
+#include "core/check.h"
 
 namespace lw {
 
@@ -23,6 +25,13 @@ constexpr double kQuarterTurn = 1.5707963267948966;
 double now_ms() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
+
+/// The processor time of the calling thread: other work on the machine does not count.
+class ThreadClock final : public Clock {
+public:
+    [[nodiscard]] TimePoint now() const override { return TimePoint{thread_cpu_time()}; }
+    void sleep_until(TimePoint wake) override { LW_CHECK(wake <= now(), "this clock does not wait"); }
+};
 
 double median_of(std::vector<double> values) {
     std::ranges::sort(values);
@@ -166,9 +175,9 @@ FrustumTiming time_frustum(std::size_t objects) {
 }
 
 Result<FrameTiming> time_frames(const scene::Scene& scene, const CullingSettings& settings, std::string label,
-                                int frames) {
-    RealClock clock;
-    auto renderer = SceneRenderer::create(scene, {settings, &clock});
+                                int frames, DrawOrder order) {
+    ThreadClock clock;
+    auto renderer = SceneRenderer::create(scene, {.culling = settings, .clock = &clock, .order = order});
     if (!renderer) return renderer.error();
     FrameTiming timing;
     timing.label = std::move(label);
@@ -190,6 +199,7 @@ Result<FrameTiming> time_frames(const scene::Scene& scene, const CullingSettings
     }
     timing.objects_drawn = (*renderer)->counters().objects_drawn;
     timing.triangles_drawn = (*renderer)->counters().triangles_drawn;
+    timing.draw_calls = (*renderer)->counters().draw_calls;
     timing.frame_ms = median_of(frame_ms);
     timing.culling_ms = *distribution_of(culling_ms);
     return timing;
@@ -253,11 +263,13 @@ Result<RevealCheck> check_reveal(const scene::Scene& scene, const Trace& trace, 
         Camera eye_camera = camera;
         for (const glm::dvec3& eye : eyes_around(camera.world_from_eye.position_m, margin)) {
             eye_camera.world_from_eye.position_m = eye;
-            (*oracle)->add_seen(eye_camera, time_s, seen);
+            (*oracle)->add_seen_within(camera, eye_camera, time_s, seen);
         }
         const Frustum frustum = frustum_of(camera);
         for (std::size_t object = 0; object < placed.size(); ++object) {
             if (!may_see(frustum, placed[object].bounds_world)) continue;
+            // What has no pixel in the frame even alone is not hidden, and no view warped from the frame can show it.
+            if (!has_pixel_alone(scene, placed[object], camera)) continue;
             ++check.in_view;
             const bool is_seen = seen[static_cast<std::size_t>(placed[object].instance - scene.instances.data())];
             if (!is_seen) ++check.hidden;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "client_renderer/culling_settings.h"
+#include "client_renderer/draw_order.h"
 #include "core/result.h"
 #include "core/statistics.h"
 #include "frame_link/trace.h"
@@ -33,14 +34,15 @@ struct FrameTiming {
     std::uint64_t triangles = 0;
     std::uint64_t objects_drawn = 0;
     std::uint64_t triangles_drawn = 0;
-    double frame_ms = 0.0;    ///< medians
-    Distribution culling_ms;  ///< finding what is drawn: objects, clusters and the draws for them
+    std::uint64_t draw_calls = 0;  ///< changes of state
+    double frame_ms = 0.0;         ///< medians
+    Distribution culling_ms;       ///< finding what is drawn, objects, clusters and the draws for them: processor time
 };
 
 /// Draws `frames` frames (after as many again for warming up, one where there is one) at 1024x1024 from steps of 5 cm
 /// along the start pose's direction. The current context draws.
 [[nodiscard]] Result<FrameTiming> time_frames(const scene::Scene& scene, const CullingSettings& settings,
-                                              std::string label, int frames);
+                                              std::string label, int frames, DrawOrder order = {});
 
 /// What was skipped as hidden, against what is, at a margin.
 struct RevealCheck {
@@ -48,7 +50,7 @@ struct RevealCheck {
     std::string trace;
     double margin_m = 0.0;
     std::uint64_t views = 0;
-    std::uint64_t in_view = 0;          ///< objects in the field of view, over all views
+    std::uint64_t in_view = 0;          ///< objects that alone would have a pixel in the frame, over all views
     std::uint64_t hidden = 0;           ///< of those: in no pixel of a picture from any of the eyes within the margin
     std::uint64_t skipped_hidden = 0;   ///< of those: skipped
     std::uint64_t wrongly_skipped = 0;  ///< skipped, but seen from one of the eyes

@@ -10,18 +10,20 @@
 namespace lw {
 
 void describe_skipped(Report& report, std::span<const DrawCounters> frames) {
-    static constexpr std::array<std::pair<const char*, std::uint64_t DrawCounters::*>, 13> kCounters{{
+    static constexpr std::array<std::pair<const char*, std::uint64_t DrawCounters::*>, 15> kCounters{{
         {"objects_tested", &DrawCounters::objects_tested},
         {"objects_outside", &DrawCounters::objects_outside},
         {"objects_behind_walls", &DrawCounters::objects_behind_walls},
         {"objects_occluded", &DrawCounters::objects_occluded},
         {"objects_too_small", &DrawCounters::objects_too_small},
+        {"objects_between_samples", &DrawCounters::objects_between_samples},
         {"objects_drawn", &DrawCounters::objects_drawn},
         {"clusters_tested", &DrawCounters::clusters_tested},
         {"clusters_outside", &DrawCounters::clusters_outside},
         {"clusters_turned_away", &DrawCounters::clusters_turned_away},
         {"clusters_occluded", &DrawCounters::clusters_occluded},
         {"clusters_too_small", &DrawCounters::clusters_too_small},
+        {"clusters_between_samples", &DrawCounters::clusters_between_samples},
         {"triangles_drawn", &DrawCounters::triangles_drawn},
         {"draw_calls", &DrawCounters::draw_calls},
     }};

@@ -1,5 +1,5 @@
 #pragma once
-/// Which objects a view shows, found by drawing all of them: the oracle of what may be skipped.
+/// Which objects a view shows, found by drawing all that are in the field of view: the oracle of what may be skipped.
 
 #include <memory>
 #include <vector>
@@ -22,6 +22,9 @@ public:
     /// Sets seen[i] for every instance i of the scene that has a pixel in the picture. `seen` has one entry per
     /// instance; what is set stays so.
     void add_seen(const Camera& camera, double scene_time_s, std::vector<bool>& seen);
+
+    /// The same, of pixels whose places lie in the picture of `frame` too: what a view warped from it could show.
+    void add_seen_within(const Camera& frame, const Camera& camera, double scene_time_s, std::vector<bool>& seen);
 
 private:
     explicit VisibleObjects(const scene::Scene& scene);

@@ -171,46 +171,146 @@ HWY_INLINE void project(const BoxVector& boxes, const OcclusionBuffer::View& vie
     hn::Store(hn::IfThenElse(behind, hn::Set(d, 1e30F), reverse), d, projected.reverse.data());
 }
 
-/// True when every pixel of the buffer that box `i` may touch hides what is at its nearest point and beyond. A box that
-/// touches none is not hidden: that is the frustum's business.
-HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const Projected& projected, std::size_t i) {
+/// The same of one box.
+struct ProjectedBox {
+    float x0;
+    float x1;
+    float y0;
+    float y1;
+    float reverse;
+};
+
+HWY_INLINE ProjectedBox lane(const Projected& projected, std::size_t i) {
+    return {projected.x0[i], projected.x1[i], projected.y0[i], projected.y1[i], projected.reverse[i]};
+}
+
+/// Of one box, its corners side by side in a vector.
+HWY_INLINE ProjectedBox project_one(const glm::vec3& box_min, const glm::vec3& box_max,
+                                    const OcclusionBuffer::View& view) {
+    const hn::CappedTag<float, 8> d;
+    using V = hn::Vec<decltype(d)>;
+    HWY_ALIGN static constexpr std::array<std::array<float, 8>, 3> kSigns{
+        {{1, -1, 1, -1, 1, -1, 1, -1}, {1, 1, -1, -1, 1, 1, -1, -1}, {1, 1, 1, 1, -1, -1, -1, -1}}};
+    std::array<float, 3> centre{};
+    std::array<float, 3> half{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<glm::length_t>(axis);
+        centre[axis] = 0.5F * (box_min[a] + box_max[a]) - view.eye_world[axis];
+        // The box and the eye were rounded to single precision, and so are these.
+        const float size = std::abs(centre[axis]) + std::abs(view.eye_world[axis]);
+        half[axis] = 0.5F * (box_max[a] - box_min[a]) + 3e-7F * size;
+    }
+    const auto at_centre = [&](const std::array<float, 3>& row) {
+        return row[0] * centre[0] + row[1] * centre[1] + row[2] * centre[2];
+    };
+    V x0 = hn::Set(d, 1e30F);
+    V y0 = x0;
+    V x1 = hn::Set(d, -1e30F);
+    V y1 = x1;
+    V nearest = x0;
+    for (std::size_t corner = 0; corner < 8; corner += hn::Lanes(d)) {
+        const V sx = hn::Load(d, kSigns[0].data() + corner);
+        const V sy = hn::Load(d, kSigns[1].data() + corner);
+        const V sz = hn::Load(d, kSigns[2].data() + corner);
+        const auto at_corners = [&](const std::array<float, 3>& row) HWY_ATTR {
+            return hn::MulAdd(hn::Set(d, row[0] * half[0]), sx,
+                              hn::MulAdd(hn::Set(d, row[1] * half[1]), sy,
+                                         hn::MulAdd(hn::Set(d, row[2] * half[2]), sz, hn::Set(d, at_centre(row)))));
+        };
+        const V z = at_corners(view.distance);
+        const V per_z = hn::Div(hn::Set(d, 1.0F), z);
+        const V x = hn::Mul(at_corners(view.x_px), per_z);
+        const V y = hn::Mul(at_corners(view.y_px), per_z);
+        nearest = hn::Min(nearest, z);
+        x0 = hn::Min(x0, x);
+        x1 = hn::Max(x1, x);
+        y0 = hn::Min(y0, y);
+        y1 = hn::Max(y1, y);
+    }
+    const float nearest_m = hn::GetLane(hn::MinOfLanes(d, nearest));
+    return {hn::GetLane(hn::MinOfLanes(d, x0)), hn::GetLane(hn::MaxOfLanes(d, x1)), hn::GetLane(hn::MinOfLanes(d, y0)),
+            hn::GetLane(hn::MaxOfLanes(d, y1)), nearest_m > view.near_m ? (1.0F + kDepthRounding) / nearest_m : 1e30F};
+}
+
+/// Lanes whose boxes have a sample of the picture in the rectangle around them. The others fall between the samples:
+/// nothing of them is drawn.
+HWY_INLINE MF meets_sample(const Projected& projected, const OcclusionBuffer::View& view) {
     const DF d;
-    const float reverse = projected.reverse[i];
-    if (!(reverse < 1e29F)) return false;
-    // In front of the eye and beside the picture: the test of the field of view is coarser than this rectangle.
-    const bool beside = projected.x1[i] + kSnapPx < 0.0F || projected.y1[i] + kSnapPx < 0.0F ||
-                        projected.x0[i] - kSnapPx > static_cast<float>(buffer.size_px().x) ||
-                        projected.y0[i] - kSnapPx > static_cast<float>(buffer.size_px().y);
-    if (beside) return true;
-    const float last_x = static_cast<float>(buffer.size_px().x) - 0.5F;
-    const float last_y = static_cast<float>(buffer.size_px().y) - 0.5F;
-    const float left = std::clamp(projected.x0[i] - kSnapPx, 0.0F, last_x);
-    const float right = std::clamp(projected.x1[i] + kSnapPx, 0.0F, last_x);
-    const float top = std::clamp(projected.y0[i] - kSnapPx, 0.0F, last_y);
-    const float bottom = std::clamp(projected.y1[i] + kSnapPx, 0.0F, last_y);
-    const int x0 = static_cast<int>(left);
-    const int x1 = static_cast<int>(right);
-    const int y0 = static_cast<int>(top);
-    const int y1 = static_cast<int>(bottom);
+    const auto meets = [&](const auto& low, const auto& high, float samples_per_px) HWY_ATTR {
+        const VF scale = hn::Set(d, samples_per_px);
+        const VF snap = hn::Set(d, kSnapPx);
+        const VF half = hn::Set(d, 0.5F);
+        const VF first = hn::Ceil(hn::Sub(hn::Mul(hn::Sub(hn::Load(d, low.data()), snap), scale), half));
+        const VF last = hn::Floor(hn::Sub(hn::Mul(hn::Add(hn::Load(d, high.data()), snap), scale), half));
+        return hn::Le(first, last);
+    };
+    const MF before_near = hn::Ge(hn::Load(d, projected.reverse.data()), hn::Set(d, 1e29F));
+    return hn::Or(before_near, hn::And(meets(projected.x0, projected.x1, view.samples_per_px[0]),
+                                       meets(projected.y0, projected.y1, view.samples_per_px[1])));
+}
+
+/// Whether a tile hides at `reverse` and beyond all parts of its pixels within a rectangle of parts (first x, first y,
+/// last x, last y).
+HWY_INLINE bool tile_hides(const OcclusionBuffer& buffer, glm::ivec2 tile_px, glm::ivec4 rect, float reverse) {
+    const DF d;
+    const DI di;
+    constexpr int kParts = OcclusionBuffer::kParts;
     const int lanes = static_cast<int>(hn::Lanes(d));
+    const VF limit = hn::Set(d, reverse);
+    const auto none = hn::Zero(di);
+    const auto all = hn::Set(di, kParts);
+    const auto one = hn::Set(di, 1);
+    const int row0 = std::max(rect.y / kParts, tile_px.y);
+    const int row1 = std::min(rect.w / kParts, tile_px.y + OcclusionBuffer::kTileY - 1);
+    for (int x = tile_px.x; x < tile_px.x + OcclusionBuffer::kTileX; x += lanes) {
+        if (kParts * (x + lanes) <= rect.x || kParts * x > rect.z) continue;
+        const auto first_part = hn::Mul(hn::Iota(di, x), all);
+        const auto begin = hn::Min(hn::Max(hn::Sub(hn::Set(di, rect.x), first_part), none), all);
+        const auto end = hn::Min(hn::Max(hn::Sub(hn::Set(di, rect.z + 1), first_part), none), all);
+        const auto columns = hn::Max(hn::Sub(hn::Shl(one, end), hn::Shl(one, begin)), none);
+        for (int y = row0; y <= row1; ++y) {
+            const std::ptrdiff_t at = static_cast<std::ptrdiff_t>(y) * buffer.stride() + x;
+            const auto open = hn::RebindMask(di, hn::Le(hn::LoadU(d, buffer.pixels() + at), limit));
+            const auto wanted_columns = hn::IfThenElseZero(open, columns);
+            if (hn::AllTrue(di, hn::Eq(wanted_columns, none))) continue;
+            int rows = 0;
+            for (int r = std::max(rect.y - kParts * y, 0); r <= std::min(rect.w - kParts * y, kParts - 1); ++r) {
+                rows |= 1 << (kParts * r);
+            }
+            const auto wanted = hn::Mul(wanted_columns, hn::Set(di, rows));
+            const auto near_parts = hn::RebindMask(di, hn::Gt(hn::LoadU(d, buffer.parts() + at), limit));
+            const auto hidden = hn::IfThenElseZero(near_parts, hn::LoadU(di, buffer.masks() + at));
+            if (!hn::AllTrue(di, hn::Eq(hn::AndNot(hidden, wanted), none))) return false;
+        }
+    }
+    return true;
+}
+
+/// True when every pixel of the buffer that the box may touch hides what is at its nearest point and beyond, and when
+/// it lies beside the picture: the test of the field of view is coarser than this rectangle.
+HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const ProjectedBox& box) {
+    if (!(box.reverse < 1e29F)) return false;
+    const bool beside = box.x1 + kSnapPx < 0.0F || box.y1 + kSnapPx < 0.0F ||
+                        box.x0 - kSnapPx > static_cast<float>(buffer.size_px().x) ||
+                        box.y0 - kSnapPx > static_cast<float>(buffer.size_px().y);
+    if (beside) return true;
+    // In parts of pixels.
+    constexpr int kParts = OcclusionBuffer::kParts;
+    const auto part_of = [](float px, int last) {
+        return static_cast<int>(std::clamp(kParts * px, 0.0F, static_cast<float>(last)));
+    };
+    const int last_x = kParts * buffer.size_px().x - 1;
+    const int last_y = kParts * buffer.size_px().y - 1;
+    const int x0 = part_of(box.x0 - kSnapPx, last_x);
+    const int x1 = part_of(box.x1 + kSnapPx, last_x);
+    const int y0 = part_of(box.y0 - kSnapPx, last_y);
+    const int y1 = part_of(box.y1 + kSnapPx, last_y);
     constexpr int kTileX = OcclusionBuffer::kTileX;
     constexpr int kTileY = OcclusionBuffer::kTileY;
-    const VF limit = hn::Set(d, reverse);
-    const VF first = hn::Set(d, static_cast<float>(x0));
-    const VF last = hn::Set(d, static_cast<float>(x1));
-    for (int ty = y0 / kTileY; ty <= y1 / kTileY; ++ty) {
-        const int row0 = std::max(y0, ty * kTileY);
-        const int row1 = std::min(y1, ty * kTileY + kTileY - 1);
-        for (int tx = x0 / kTileX; tx <= x1 / kTileX; ++tx) {
-            if (buffer.tiles()[ty * buffer.tile_stride() + tx] > reverse) continue;
-            for (int x = tx * kTileX; x < tx * kTileX + kTileX; x += lanes) {
-                const VF xi = hn::Iota(d, static_cast<float>(x));
-                const MF in_rect = hn::And(hn::Ge(xi, first), hn::Le(xi, last));
-                for (int y = row0; y <= row1; ++y) {
-                    const float* row = buffer.pixels() + static_cast<std::ptrdiff_t>(y) * buffer.stride();
-                    if (!hn::AllFalse(d, hn::And(in_rect, hn::Le(hn::LoadU(d, row + x), limit)))) return false;
-                }
-            }
+    for (int ty = y0 / kParts / kTileY; ty <= y1 / kParts / kTileY; ++ty) {
+        for (int tx = x0 / kParts / kTileX; tx <= x1 / kParts / kTileX; ++tx) {
+            if (buffer.tiles()[ty * buffer.tile_stride() + tx] > box.reverse) continue;
+            if (!tile_hides(buffer, {tx * kTileX, ty * kTileY}, {x0, y0, x1, y1}, box.reverse)) return false;
         }
     }
     return true;

@@ -101,16 +101,8 @@ private:
         seen_.insert(seen_.end(), begin + first, begin + end);
     }
 
-    bool hides(const scene::BvhNode& node) const {
-        const DF d;
-        const glm::vec3 centre = 0.5F * (node.min + node.max);
-        // Half of a sum of two floats may be rounded down by 6e-8 of it; project() allows for that.
-        const glm::vec3 half = 0.5F * (node.max - node.min);
-        const BoxVector box{hn::Set(d, centre.x), hn::Set(d, centre.y), hn::Set(d, centre.z),
-                            hn::Set(d, half.x),   hn::Set(d, half.y),   hn::Set(d, half.z)};
-        Projected projected;
-        project(box, query_.occlusion->view(), projected);
-        return is_hidden(*query_.occlusion, projected, 0);
+    [[nodiscard]] bool hides(const scene::BvhNode& node) const {
+        return is_hidden(*query_.occlusion, project_one(node.min, node.max, query_.occlusion->view()));
     }
 
     void test(std::uint32_t first, std::uint32_t end, unsigned planes) {
@@ -131,13 +123,18 @@ private:
             }
             Projected projected;
             const bool may_hide = query_.occlusion != nullptr && bits != 0;
-            if (may_hide) project(boxes, query_.occlusion->view(), projected);
+            if (may_hide) {
+                project(boxes, query_.occlusion->view(), projected);
+                const std::uint32_t sampled = bits & bits_of(meets_sample(projected, query_.occlusion->view()));
+                counters_.items_between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
+                bits = sampled;
+            }
             for (; bits != 0; bits &= bits - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-                if (may_hide && is_hidden(*query_.occlusion, projected, lane)) {
+                const auto at = static_cast<std::uint32_t>(std::countr_zero(bits));
+                if (may_hide && is_hidden(*query_.occlusion, lane(projected, at))) {
                     ++counters_.items_hidden;
                 } else {
-                    seen_.push_back(bvh_.order()[i + lane]);
+                    seen_.push_back(bvh_.order()[i + at]);
                 }
             }
         }

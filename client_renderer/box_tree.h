@@ -21,17 +21,18 @@ struct SeenItem {
 
 /// What a walk did.
 struct WalkCounters {
-    std::uint64_t nodes = 0;            ///< visited
-    std::uint64_t items = 0;            ///< tested one by one
-    std::uint64_t items_outside = 0;    ///< out of view, one by one or with their subtree
-    std::uint64_t items_hidden = 0;     ///< behind occluders, one by one or with their subtree
-    std::uint64_t items_too_small = 0;  ///< below the pixel size asked for
+    std::uint64_t nodes = 0;                  ///< visited
+    std::uint64_t items = 0;                  ///< tested one by one
+    std::uint64_t items_outside = 0;          ///< out of view, one by one or with their subtree
+    std::uint64_t items_hidden = 0;           ///< behind occluders, one by one or with their subtree
+    std::uint64_t items_too_small = 0;        ///< below the pixel size asked for
+    std::uint64_t items_between_samples = 0;  ///< too thin to meet a sample of the picture; only with occlusion
 };
 
 /// What a view needs of the boxes.
 struct WalkQuery {
     FloatFrustum frustum;
-    const OcclusionBuffer* occlusion = nullptr;  ///< finished; null: nothing is hidden
+    const OcclusionBuffer* occlusion = nullptr;  ///< null: nothing is hidden
     std::array<float, 3> eye_world{};            ///< for sizes
     /// Boxes whose bounding sphere looks smaller than this across are left out: metres per metre of distance. 0: none.
     float least_size_per_distance = 0.0F;

@@ -80,10 +80,13 @@ void test_here(const BoxList& boxes, const ClusterRange& range, const ClusterTes
         if (test.occlusion != nullptr && bits != 0) {
             Projected projected;
             project(relative, test.view_relative, projected);
+            const std::uint32_t sampled = bits & bits_of(meets_sample(projected, test.view_relative));
+            counters.between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
+            bits = sampled;
             for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
-                const auto lane = static_cast<std::uint32_t>(std::countr_zero(rest));
-                if (!is_hidden(*test.occlusion, projected, lane)) continue;
-                bits &= ~(1U << lane);
+                const auto at = static_cast<std::uint32_t>(std::countr_zero(rest));
+                if (!is_hidden(*test.occlusion, lane(projected, at))) continue;
+                bits &= ~(1U << at);
                 ++counters.occluded;
             }
         }

@@ -32,6 +32,7 @@ struct ClusterCounters {
     std::uint64_t turned_away = 0;
     std::uint64_t occluded = 0;
     std::uint64_t too_small = 0;
+    std::uint64_t between_samples = 0;
 };
 
 /// What is known of a view when clusters are tested.
@@ -39,7 +40,7 @@ struct ClusterView {
     Frustum frustum_world;
     glm::dvec3 eye_world{0.0};
     double reveal_margin_m = 0.0;
-    const OcclusionBuffer* occlusion = nullptr;  ///< finished; null: nothing is hidden
+    const OcclusionBuffer* occlusion = nullptr;  ///< null: nothing is hidden
     double least_size_per_distance = 0.0;        ///< clusters that look smaller are left out, as WalkQuery says
 };
 

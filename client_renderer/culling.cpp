@@ -36,7 +36,6 @@ const std::vector<std::uint32_t>& Culling::visible(const Camera& camera) {
     buffer_.begin(camera);
     if (settings_.occlusion) counters_.occluders = occluders_.draw(camera, settings_.reveal_margin_m, buffer_);
     const bool with_occlusion = counters_.occluders > 0;
-    if (with_occlusion) buffer_.finish();
     in_view_.clear();
     if (settings_.portals && !portals_.empty() && portals_.append_seen(camera, settings_.reveal_margin_m, in_view_)) {
         walk_portals(camera, with_occlusion);
@@ -45,8 +44,8 @@ const std::vector<std::uint32_t>& Culling::visible(const Camera& camera) {
     } else {
         walk_list(camera, with_occlusion);
     }
-    counters_.outside =
-        placed_.size() - seen_.size() - counters_.occluded - counters_.behind_walls - counters_.too_small;
+    counters_.outside = placed_.size() - seen_.size() - counters_.occluded - counters_.behind_walls -
+                        counters_.too_small - counters_.between_samples;
     return seen_;
 }
 
@@ -78,9 +77,12 @@ void Culling::walk_list(const Camera& camera, bool with_occlusion) {
     }
     boxes_.append_seen(frustum_of(camera), in_view_);
     leave_out_small(camera, in_view_);
-    hidden_.clear();
-    buffer_.split(boxes_, in_view_, seen_, hidden_);
-    counters_.occluded = hidden_.size();
+    count(buffer_.split(boxes_, in_view_, seen_));
+}
+
+void Culling::count(const OcclusionBuffer::Split& split) {
+    counters_.occluded = split.hidden;
+    counters_.between_samples = split.between_samples;
 }
 
 void Culling::walk_tree(const Camera& camera, bool with_occlusion) {
@@ -94,6 +96,7 @@ void Culling::walk_tree(const Camera& camera, bool with_occlusion) {
     tree_->append_seen(query, in_view_);
     counters_.occluded = tree_->counters().items_hidden;
     counters_.too_small = tree_->counters().items_too_small;
+    counters_.between_samples = tree_->counters().items_between_samples;
     put_in_order();
 }
 
@@ -101,11 +104,9 @@ void Culling::walk_portals(const Camera& camera, bool with_occlusion) {
     counters_.behind_walls = placed_.size() - in_view_.size();
     leave_out_small(camera, in_view_);
     if (with_occlusion) {
-        std::vector<std::uint32_t> shown;
-        hidden_.clear();
-        buffer_.split(boxes_, in_view_, shown, hidden_);
-        counters_.occluded = hidden_.size();
-        in_view_.swap(shown);
+        shown_.clear();
+        count(buffer_.split(boxes_, in_view_, shown_));
+        in_view_.swap(shown_);
     }
     put_in_order();
 }

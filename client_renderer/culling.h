@@ -20,11 +20,12 @@ namespace lw {
 /// Objects by what became of them.
 struct CullingCounters {
     std::uint64_t tested = 0;
-    std::uint64_t outside = 0;       ///< not in the field of view
-    std::uint64_t behind_walls = 0;  ///< in cells that no portal in view leads to, or beside all portals' rectangles
-    std::uint64_t occluded = 0;      ///< hidden behind occluders
-    std::uint64_t too_small = 0;     ///< below the pixel size asked for
-    std::uint64_t occluders = 0;     ///< drawn into the occlusion buffer
+    std::uint64_t outside = 0;          ///< not in the field of view
+    std::uint64_t behind_walls = 0;     ///< in cells that no portal in view leads to, or beside all portals' rectangles
+    std::uint64_t occluded = 0;         ///< hidden behind occluders
+    std::uint64_t too_small = 0;        ///< below the pixel size asked for
+    std::uint64_t between_samples = 0;  ///< too thin or too far to meet a sample of the picture
+    std::uint64_t occluders = 0;        ///< drawn into the occlusion buffer
 };
 
 /// One thread at a time.
@@ -59,6 +60,7 @@ private:
     bool viewer_moves_ = false;
     void walk_portals(const Camera& camera, bool with_occlusion);
     void put_in_order();
+    void count(const OcclusionBuffer::Split& split);
     void leave_out_small(const Camera& camera, std::vector<std::uint32_t>& objects);
     [[nodiscard]] double least_size_per_distance(const Camera& camera) const;
     void walk_tree(const Camera& camera, bool with_occlusion);
@@ -73,7 +75,7 @@ private:
     OcclusionBuffer buffer_;
     std::vector<std::uint32_t> in_view_;
     std::vector<std::uint32_t> seen_;
-    std::vector<std::uint32_t> hidden_;
+    std::vector<std::uint32_t> shown_;
     CullingCounters counters_;
 };
 

@@ -6,13 +6,21 @@ namespace lw {
 
 namespace {
 
+// What is seen lies scattered over a large scene: each object would be waited for.
+constexpr std::size_t kAhead = 8;
+
+void fetch(const PlacedInstance& placed) {
+    const auto* bytes = reinterpret_cast<const char*>(&placed);
+    for (std::size_t line = 0; line < sizeof(PlacedInstance); line += 64) __builtin_prefetch(bytes + line);
+}
+
 double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
     return glm::distance(place, glm::clamp(place, box.min, box.max));
 }
 
 }  // namespace
 
-DrawList::DrawList(const PlacedInstances& placed) : placed_{placed} {
+DrawList::DrawList(const PlacedInstances& placed, DrawOrder order) : placed_{placed}, order_{order} {
     for (auto& zone : visible_) {
         for (auto& visible : zone) visible.resize(placed.scene().meshes.size());
     }
@@ -26,6 +34,7 @@ void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& cam
         for (auto& ranges : zone) std::ranges::fill(ranges, VisibleRange{});
     }
     for (std::size_t i = 0; i < visible.size(); ++i) {
+        if (i + kAhead < visible.size()) fetch(placed_[visible[i + kAhead]]);
         const PlacedInstance& placed = placed_[visible[i]];
         const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
         const auto zone =
@@ -59,7 +68,49 @@ void DrawList::build(std::span<const std::uint32_t> visible, const Camera& camer
     commands_.clear();
     ranges_.clear();
     triangles_drawn_ = 0;
+    states_.clear();
+    if (!order_.grouped) return append_by_distance(camera, batches, clusters);
     for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches, clusters);
+}
+
+void DrawList::append_by_distance(const Camera& camera, std::span<const std::vector<MeshPart>> batches,
+                                  const ClusterUse& clusters) {
+    const glm::dvec3& eye_world = camera.world_from_eye.position_m;
+    by_distance_.clear();
+    for (std::uint32_t i = 0; i < placed_of_packed_.size(); ++i) {
+        by_distance_.emplace_back(distance_to_box_m(eye_world, placed_[placed_of_packed_[i]].bounds_world), i);
+    }
+    std::ranges::sort(by_distance_);
+    if (parts_of_meshes_.empty()) {
+        parts_of_meshes_.resize(placed_.scene().meshes.size());
+        for (std::uint32_t batch = 0; batch < batches.size(); ++batch) {
+            for (const MeshPart& part : batches[batch]) {
+                parts_of_meshes_[static_cast<std::size_t>(part.mesh)].emplace_back(batch, part);
+            }
+        }
+    }
+    for (const auto& [distance_m, packed] : by_distance_) {
+        const PlacedInstance& placed = placed_[placed_of_packed_[packed]];
+        for (const auto& [batch, part] : parts_of_meshes_[static_cast<std::size_t>(placed.instance->mesh)]) {
+            append_part(part, {packed, 1}, clusters);
+            states_.resize(commands_.size(), 2 * batch + (placed.mirrored ? 1 : 0));
+        }
+    }
+    pass_through_buffer();
+}
+
+void DrawList::pass_through_buffer() {
+    arrived_.swap(commands_);
+    commands_.clear();
+    for (const std::uint32_t draw : sorted_through_buffer(states_, order_.strategy, order_.capacity)) {
+        const auto batch = static_cast<int>(states_[draw] / 2);
+        const bool mirrored = states_[draw] % 2 == 1;
+        if (ranges_.empty() || ranges_.back().batch != batch || ranges_.back().mirrored != mirrored) {
+            ranges_.push_back({batch, mirrored, commands_.size(), 0});
+        }
+        commands_.push_back(arrived_[draw]);
+        ++ranges_.back().command_count;
+    }
 }
 
 void DrawList::append_part(const MeshPart& part, const VisibleRange& visible, const ClusterUse& clusters) {

@@ -6,9 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "client_renderer/clusters.h"
+#include "client_renderer/draw_order.h"
 #include "client_renderer/packed_vertex.h"
 #include "client_renderer/placed_instances.h"
 #include "core/camera.h"
@@ -54,7 +56,7 @@ struct ClusterUse {
 class DrawList {
 public:
     /// `placed` outlives the list.
-    explicit DrawList(const PlacedInstances& placed);
+    explicit DrawList(const PlacedInstances& placed, DrawOrder order = {});
 
     /// Fills the list with the instances `visible` (indices into the placed ones, ascending), as seen by `camera`.
     /// `batches[b]` are the parts drawn with the state of batch b. Leaving an instance out does not change the order of
@@ -66,6 +68,10 @@ public:
     [[nodiscard]] const std::vector<PackedInstance>& instances() const { return packed_; }
     [[nodiscard]] const std::vector<DrawCommand>& commands() const { return commands_; }
     [[nodiscard]] const std::vector<DrawRange>& ranges() const { return ranges_; }
+    /// Changes of state from one range to the next, the first included.
+    [[nodiscard]] std::size_t state_changes() const { return ranges_.size(); }
+    /// Not grouped: the states of the draws as they came to the sorting buffer.
+    [[nodiscard]] const std::vector<std::uint32_t>& arriving_states() const { return states_; }
     [[nodiscard]] std::uint64_t objects_drawn() const { return packed_.size(); }
     [[nodiscard]] std::uint64_t triangles_drawn() const { return triangles_drawn_; }
 
@@ -79,8 +85,12 @@ private:
     void end_mesh(std::size_t mesh, const glm::dvec3& eye_world);
     void append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters);
     void append_part(const MeshPart& part, const VisibleRange& visible, const ClusterUse& clusters);
+    void append_by_distance(const Camera& camera, std::span<const std::vector<MeshPart>> batches,
+                            const ClusterUse& clusters);
+    void pass_through_buffer();
 
     const PlacedInstances& placed_;
+    DrawOrder order_;
     /// Instances are drawn by distance from the eye, in zones that end at these metres and a last one that does not
     /// end. Nearer zones first saves an eighth of the processor time of the start view of the city.
     static constexpr std::array kZoneEnds_m{12.0, 30.0, 75.0};
@@ -92,6 +102,10 @@ private:
     std::vector<IndexRun> runs_;
     std::vector<DrawCommand> commands_;
     std::vector<DrawRange> ranges_;
+    std::vector<std::vector<std::pair<std::uint32_t, MeshPart>>> parts_of_meshes_;  ///< with their batches
+    std::vector<std::uint32_t> states_;  ///< of commands that are not grouped: 2 * batch + mirrored
+    std::vector<DrawCommand> arrived_;
+    std::vector<std::pair<double, std::uint32_t>> by_distance_;  ///< indices into packed_
     std::uint64_t triangles_drawn_ = 0;
 };
 

@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <optional>
+#include <unordered_map>
 
 namespace lw {
 
@@ -78,7 +78,11 @@ Occluder occluder_of(const AlignedBox& row) {
 class RowFinder {
 public:
     RowFinder(const std::vector<AlignedBox>& boxes, int axis) : boxes_{boxes}, axis_{axis} {
-        for (std::size_t i = 0; i < boxes.size(); ++i) by_start_[key(boxes[i].box.min[axis])].push_back(i);
+        for (std::size_t i = 0; i < boxes.size(); ++i) {
+            for_each_cell(boxes[i].box, [&](std::int64_t u, std::int64_t v) {
+                by_start_[key(start_of(boxes[i].box.min[axis]), u, v)].push_back(i);
+            });
+        }
     }
 
     /// Every pair that touches, and every whole row of three and more.
@@ -98,23 +102,47 @@ public:
     }
 
 private:
-    static std::int64_t key(double place_m) { return std::llround(place_m * 100.0); }
+    static std::int64_t start_of(double place_m) { return std::llround(place_m * 100.0); }
+
+    /// Equal keys of different places only cost time.
+    static std::uint64_t key(std::int64_t start, std::int64_t u, std::int64_t v) {
+        return static_cast<std::uint64_t>(start) * 0x9E3779B97F4A7C15ULL +
+               static_cast<std::uint64_t>(u) * 0xBF58476D1CE4E5B9ULL +
+               static_cast<std::uint64_t>(v) * 0x94D049BB133111EBULL;
+    }
+
+    /// The cells across the axis that the box lies in; of a large box those at its corner and no others.
+    template <class Visit>
+    void for_each_cell(const scene::Bounds& box, Visit visit) const {
+        constexpr double kCell_m = 8.0;
+        constexpr std::int64_t kMostCells = 16;  // per axis
+        const int u_axis = (axis_ + 1) % 3;
+        const int v_axis = (axis_ + 2) % 3;
+        const auto cell = [](double place_m) { return static_cast<std::int64_t>(std::floor(place_m / kCell_m)); };
+        const std::int64_t u0 = cell(box.min[u_axis]);
+        const std::int64_t v0 = cell(box.min[v_axis]);
+        for (std::int64_t u = u0; u <= std::min(cell(box.max[u_axis]), u0 + kMostCells); ++u) {
+            for (std::int64_t v = v0; v <= std::min(cell(box.max[v_axis]), v0 + kMostCells); ++v) visit(u, v);
+        }
+    }
 
     [[nodiscard]] std::optional<std::size_t> neighbour(std::size_t i) const {
         std::optional<std::size_t> best;
         double best_section = 0.0;
-        const std::int64_t end = key(boxes_[i].box.max[axis_]);
-        for (std::int64_t k = end - 1; k <= end + 1; ++k) {
-            const auto found = by_start_.find(k);
-            if (found == by_start_.end()) continue;
-            for (const std::size_t j : found->second) {
-                if (j == i || std::abs(boxes_[j].box.min[axis_] - boxes_[i].box.max[axis_]) > kTouch_m) continue;
-                const auto row = joined(boxes_[i], boxes_[j], axis_);
-                if (!row || cross_section(row->box, axis_) <= best_section) continue;
-                best = j;
-                best_section = cross_section(row->box, axis_);
+        const auto consider = [&](std::size_t j) {
+            if (j == i || std::abs(boxes_[j].box.min[axis_] - boxes_[i].box.max[axis_]) > kTouch_m) return;
+            const auto row = joined(boxes_[i], boxes_[j], axis_);
+            if (!row || cross_section(row->box, axis_) <= best_section) return;
+            best = j;
+            best_section = cross_section(row->box, axis_);
+        };
+        const std::int64_t end = start_of(boxes_[i].box.max[axis_]);
+        for_each_cell(boxes_[i].box, [&](std::int64_t u, std::int64_t v) {
+            for (std::int64_t k = end - 1; k <= end + 1; ++k) {
+                const auto found = by_start_.find(key(k, u, v));
+                if (found != by_start_.end()) std::ranges::for_each(found->second, consider);
             }
-        }
+        });
         return best;
     }
 
@@ -138,7 +166,7 @@ private:
 
     const std::vector<AlignedBox>& boxes_;
     int axis_;
-    std::map<std::int64_t, std::vector<std::size_t>> by_start_;
+    std::unordered_map<std::uint64_t, std::vector<std::size_t>> by_start_;
 };
 
 }  // namespace

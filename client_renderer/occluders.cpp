@@ -1,6 +1,7 @@
 #include "client_renderer/occluders.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -9,6 +10,9 @@
 namespace lw {
 
 namespace {
+
+// Smaller ones cover few parts, and there are many of them.
+constexpr double kLeastParts = 8.0;
 
 Occluder placed_occluder(const scene::SolidBox& box, const PlacedInstance& placed) {
     Occluder occluder;
@@ -30,15 +34,30 @@ Occluder placed_occluder(const scene::SolidBox& box, const PlacedInstance& place
     return occluder;
 }
 
-double largest_face(const scene::Bounds& bounds) {
-    const glm::dvec3 size = bounds.max - bounds.min;
-    return std::max({size.x * size.y, size.y * size.z, size.z * size.x});
-}
+float largest_face(const glm::vec3& size) { return std::max({size.x * size.y, size.y * size.z, size.z * size.x}); }
 
 /// How large something of that area looks, roughly, at the box's nearest point: area over squared distance.
-float score_of(double area, const scene::Bounds& bounds, const glm::dvec3& eye_world) {
-    const glm::dvec3 to_box = glm::clamp(eye_world, bounds.min, bounds.max) - eye_world;
-    return static_cast<float>(area / (glm::dot(to_box, to_box) + 1.0));
+float score_of(float area, const glm::vec3& box_min, const glm::vec3& box_max, const glm::vec3& eye_world) {
+    const glm::vec3 to_box = glm::clamp(eye_world, box_min, box_max) - eye_world;
+    return area / (glm::dot(to_box, to_box) + 1.0F);
+}
+
+/// Without allowing for rounding: an occluder missed at the edge of the view hides nothing there.
+bool is_in_view(const FloatFrustum& frustum, const glm::vec3& box_min, const glm::vec3& box_max) {
+    for (const FloatFrustum::Plane& plane : frustum.planes) {
+        const float farthest = plane.x * (plane.x > 0.0F ? box_max.x : box_min.x) +
+                               plane.y * (plane.y > 0.0F ? box_max.y : box_min.y) +
+                               plane.z * (plane.z > 0.0F ? box_max.z : box_min.z) + plane.w;
+        if (farthest < 0.0F) return false;
+    }
+    return true;
+}
+
+constexpr std::uint32_t kNodeBit = 0x80000000U;
+
+/// For a heap: the best score on top (bits of positive floats are in the order of their values), equal ones by place.
+std::uint64_t candidate_of(float score, std::uint32_t place) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(score)} << 32U | std::uint32_t{~place};
 }
 
 /// The occluder made smaller, or nothing where it hides nothing from an eye within the margin.
@@ -104,24 +123,31 @@ void Occluders::move(const PlacedInstances& placed) {
         const auto mesh = static_cast<std::size_t>(instance.instance->mesh);
         occluders_[moving.occluder] = placed_occluder(boxes_of_meshes_[mesh][moving.box], instance);
         bounds_[moving.occluder] = occluders_[moving.occluder].bounds_world;
+        const std::uint32_t place = bvh_->place_of(static_cast<std::uint32_t>(moving.occluder));
+        items_[place] = item_of(static_cast<std::uint32_t>(moving.occluder));
     }
     bvh_->refit(moved_, bounds_);
+}
+
+Occluders::Item Occluders::item_of(std::uint32_t occluder) const {
+    // A mover's box changes as it turns, by less than this.
+    const float slack = occluder < static_count_ ? 1.0F : 2.0F;
+    const scene::Bounds& bounds = bounds_[occluder];
+    return {glm::vec3{bounds.min}, slack * largest_face(glm::vec3{bounds.max - bounds.min}), glm::vec3{bounds.max},
+            occluder};
 }
 
 void Occluders::index() {
     for (const Occluder& occluder : occluders_) bounds_.push_back(occluder.bounds_world);
     bvh_.emplace(bounds_, 8);
+    for (const std::uint32_t occluder : bvh_->order()) items_.push_back(item_of(occluder));
     // Children come after their parents.
     largest_areas_.assign(bvh_->nodes().size(), 0.0F);
     for (std::size_t node = bvh_->nodes().size(); node-- > 0;) {
         const auto index = static_cast<std::uint32_t>(node);
         if (bvh_->nodes()[node].count > 0) {
             for (std::uint32_t i = bvh_->first_item(index); i < bvh_->end_item(index); ++i) {
-                // A mover's box changes as it turns, by less than this.
-                const std::uint32_t item = bvh_->order()[i];
-                const double slack = item < static_count_ ? 1.0 : 2.0;
-                const auto area = static_cast<float>(slack * largest_face(bounds_[item]));
-                largest_areas_[node] = std::max(largest_areas_[node], area);
+                largest_areas_[node] = std::max(largest_areas_[node], items_[i].area);
             }
         }
         const std::uint32_t parent = bvh_->parent(index);
@@ -130,61 +156,53 @@ void Occluders::index() {
     }
 }
 
-void Occluders::offer(const Choice& choice) {
-    const auto better = [](const Choice& a, const Choice& b) {
-        return a.score != b.score ? a.score > b.score : a.occluder < b.occluder;
-    };
-    if (choices_.size() == kMostDrawn) {
-        if (!better(choice, choices_.front())) return;
-        std::ranges::pop_heap(choices_, better);
-        choices_.pop_back();
-    }
-    choices_.push_back(choice);
-    std::ranges::push_heap(choices_, better);
+void Occluders::offer(const Query& query, const Item& item, std::uint32_t place) {
+    const float score = score_of(item.area, item.min, item.max, query.eye_world);
+    if (score < query.least_score || !is_in_view(query.frustum, item.min, item.max)) return;
+    candidates_.push_back(candidate_of(score, place));
+    std::ranges::push_heap(candidates_);
 }
 
-void Occluders::choose(const Camera& camera, bool movers_too) {
-    const Frustum frustum = frustum_of(camera);
-    const glm::dvec3& eye_world = camera.world_from_eye.position_m;
-    choices_.clear();
-    if (bvh_->empty()) return;
-    const auto bounds_of = [&](std::uint32_t node) {
-        return scene::Bounds{glm::dvec3{bvh_->nodes()[node].min}, glm::dvec3{bvh_->nodes()[node].max}};
-    };
-    const auto promise = [&](std::uint32_t node) {
-        return score_of(double{largest_areas_[node]}, bounds_of(node), eye_world);
-    };
-    std::vector<std::uint32_t> stack{scene::Bvh::kRoot};
-    while (!stack.empty()) {
-        const std::uint32_t node = stack.back();
-        stack.pop_back();
-        if (choices_.size() == kMostDrawn && promise(node) < choices_.front().score) continue;
-        if (!may_see(frustum, bounds_of(node))) continue;
-        const scene::BvhNode& here = bvh_->nodes()[node];
-        if (here.count == 0) {
-            // The better one first: it raises what the others must reach.
-            const bool first_is_better = promise(here.first) >= promise(here.first + 1);
-            stack.push_back(first_is_better ? here.first + 1 : here.first);
-            stack.push_back(first_is_better ? here.first : here.first + 1);
-            continue;
+void Occluders::offer_inside(const Query& query, std::uint32_t node) {
+    const scene::BvhNode& here = bvh_->nodes()[node];
+    if (here.count == 0) {
+        for (const std::uint32_t child : {here.first, here.first + 1}) {
+            const scene::BvhNode& box = bvh_->nodes()[child];
+            offer(query, {box.min, largest_areas_[child], box.max, child}, child | kNodeBit);
         }
-        for (std::uint32_t i = here.first; i < here.first + here.count; ++i) {
-            const std::uint32_t item = bvh_->order()[i];
-            if (!movers_too && item >= static_count_) continue;
-            if (!may_see(frustum, bounds_[item])) continue;
-            offer({score_of(largest_face(bounds_[item]), bounds_[item], eye_world), item});
-        }
+        return;
+    }
+    for (std::uint32_t i = here.first; i < here.first + here.count; ++i) {
+        if (items_[i].index < query.end) offer(query, items_[i], i);
     }
 }
 
 std::size_t Occluders::draw(const Camera& camera, double margin_m, OcclusionBuffer& buffer) {
+    candidates_.clear();
+    if (bvh_->empty()) return 0;
+    // What looks smaller than a part of a pixel of the buffer covers none.
+    const glm::dvec2 part{(camera.fov.right - camera.fov.left) / (OcclusionBuffer::kParts * buffer.size_px().x),
+                          (camera.fov.up - camera.fov.down) / (OcclusionBuffer::kParts * buffer.size_px().y)};
     // What moves has moved on while the frame is shown: with a margin only what stands still hides anything.
-    choose(camera, !(margin_m > 0.0));
+    const Query query{rounded(frustum_of(camera)), glm::vec3{camera.world_from_eye.position_m},
+                      static_cast<float>(kLeastParts * part.x * part.y),
+                      margin_m > 0.0 ? static_cast<std::uint32_t>(static_count_) : 0xFFFFFFFFU};
+    candidates_.push_back(candidate_of(1e30F, scene::Bvh::kRoot | kNodeBit));
     std::size_t drawn = 0;
-    for (const Choice& choice : choices_) {
-        const auto solid = usable(occluders_[choice.occluder], camera, margin_m);
+    while (!candidates_.empty() && drawn < kMostDrawn) {
+        std::ranges::pop_heap(candidates_);
+        const std::uint32_t place = ~static_cast<std::uint32_t>(candidates_.back());
+        candidates_.pop_back();
+        if ((place & kNodeBit) != 0) {
+            const std::uint32_t node = place & ~kNodeBit;
+            if (!buffer.hides(bvh_->nodes()[node].min, bvh_->nodes()[node].max)) offer_inside(query, node);
+            continue;
+        }
+        const Item& item = items_[place];
+        if (buffer.hides(item.min, item.max)) continue;
+        const auto solid = usable(occluders_[item.index], camera, margin_m);
         if (!solid) continue;
-        buffer.add(*solid, occluders_[choice.occluder].bounds_world);
+        buffer.add(*solid, bounds_[item.index]);
         ++drawn;
     }
     return drawn;

@@ -27,7 +27,7 @@ struct Occluder {
 /// One thread at a time.
 class Occluders {
 public:
-    static constexpr std::size_t kMostDrawn = 512;  ///< per view: the ones that look largest
+    static constexpr std::size_t kMostDrawn = 256;  ///< per view
 
     /// Finds the boxes of every mesh that is used (milliseconds each) and joins those of static instances that touch.
     explicit Occluders(const PlacedInstances& placed);
@@ -35,7 +35,8 @@ public:
     /// Places those of movers anew.
     void move(const PlacedInstances& placed);
 
-    /// Draws the occluders that look largest from the camera, each made smaller by `margin_m` on every side: what the
+    /// Draws occluders, those first that look largest from the camera, and none that lie behind those drawn before:
+    /// down to what covers no pixel of the buffer. Each is made smaller by `margin_m` on every side: what the
     /// buffer then says is hidden is hidden from every eye within that distance (the segment from such an eye to a
     /// hidden point passes no farther than that from the segment to the camera's eye, and so through the whole solid;
     /// Wonka et al. 2000, "Visibility preprocessing with occluder fusion").
@@ -51,12 +52,22 @@ private:
         std::size_t box = 0;  ///< of its mesh
     };
 
-    struct Choice {
-        float score = 0.0F;
-        std::uint32_t occluder = 0;
+    /// A node of the hierarchy, or an occluder.
+    struct Item {
+        glm::vec3 min{0.0F};
+        float area = 0.0F;  ///< square metres of its largest side; of a node, of any in it
+        glm::vec3 max{0.0F};
+        std::uint32_t index = 0;
     };
-    void choose(const Camera& camera, bool movers_too);
-    void offer(const Choice& choice);
+    struct Query {
+        FloatFrustum frustum;
+        glm::vec3 eye_world{0.0F};
+        float least_score = 0.0F;
+        std::uint32_t end = 0;  ///< occluders before it
+    };
+    [[nodiscard]] Item item_of(std::uint32_t occluder) const;
+    void offer(const Query& query, const Item& item, std::uint32_t place);
+    void offer_inside(const Query& query, std::uint32_t node);
     void index();
 
     std::vector<std::vector<scene::SolidBox>> boxes_of_meshes_;
@@ -66,8 +77,9 @@ private:
     std::vector<scene::Bounds> bounds_;  ///< of the occluders, for the hierarchy
     std::vector<std::uint32_t> moved_;
     std::optional<scene::Bvh> bvh_;
-    std::vector<float> largest_areas_;  ///< by node
-    std::vector<Choice> choices_;       ///< a heap, the least score on top
+    std::vector<Item> items_;                ///< in the order of the hierarchy
+    std::vector<float> largest_areas_;       ///< by node
+    std::vector<std::uint64_t> candidates_;  ///< a heap: score, and the place in items_ or a node
 };
 
 }  // namespace lw

@@ -21,10 +21,12 @@ struct ConvexSolid {
 /// boxes are tested with every pixel they may reach. So it never hides what could be seen, at any resolution of the
 /// picture.
 ///
-/// One value per pixel, and the farthest of each tile above it. One thread at a time.
+/// One value per pixel, and the farthest of each tile above it, kept up to date: tests may come between solids. One
+/// thread at a time.
 class OcclusionBuffer {
 public:
     static constexpr int kLongestSide_px = 256;  ///< of the buffer; a picture of 1024 has 4 x 4 pixels per pixel of it
+    static constexpr int kParts = 4;             ///< parts of a pixel on each axis whose coverage is known
     static constexpr int kTileX = 16;
     static constexpr int kTileY = 8;
 
@@ -32,22 +34,30 @@ public:
     void begin(const Camera& camera);
 
     /// Draws a solid. Ignored when the eye is inside it.
-    void add(const ConvexSolid& solid) { add(solid, 0, size_px_.y - 1); }
-    /// The same, for one that lies inside `bounds_world`: only the rows that those reach are looked at.
+    void add(const ConvexSolid& solid) { add(solid, 0, size_px_.y - 1, 0.0F); }
+    /// The same, for one that lies inside `bounds_world`: faster, and nearer at its edges.
     void add(const ConvexSolid& solid, const scene::Bounds& bounds_world);
 
-    /// Ends drawing: tests come after this.
-    void finish();
+    /// What became of the candidates of a split().
+    struct Split {
+        std::uint64_t hidden = 0;
+        std::uint64_t between_samples = 0;  ///< too thin to meet a sample of the picture
+    };
+    /// Appends those of the candidates (indices into `boxes`) that may be seen, in their order. A box that reaches
+    /// before the near plane may be seen.
+    Split split(const BoxList& boxes, std::span<const std::uint32_t> candidates,
+                std::vector<std::uint32_t>& seen) const;
 
-    /// Splits candidates (indices into `boxes`) into those that may be seen and those that are hidden; both keep the
-    /// order and are appended. A box that reaches before the near plane may be seen.
-    void split(const BoxList& boxes, std::span<const std::uint32_t> candidates, std::vector<std::uint32_t>& seen,
-               std::vector<std::uint32_t>& hidden) const;
+    /// True when a box (not empty, of single precision) is hidden by what was drawn so far.
+    [[nodiscard]] bool hides(const glm::vec3& box_min_world, const glm::vec3& box_max_world) const;
 
     [[nodiscard]] glm::ivec2 size_px() const { return size_px_; }
     /// Reverse distances, 1 / metres, row by row, stride() apart: nothing beyond is seen. 0: nothing is hidden.
     [[nodiscard]] const float* pixels() const { return pixels_.data(); }
-    [[nodiscard]] float* pixels() { return pixels_.data(); }
+    /// Parts of pixels (bit kParts * row + column) that hide more than the whole pixel does: what lies beyond parts()
+    /// there. Valid where a bit is set.
+    [[nodiscard]] const std::int32_t* masks() const { return masks_.data(); }
+    [[nodiscard]] const float* parts() const { return parts_.data(); }
     [[nodiscard]] int stride() const { return stride_; }
     [[nodiscard]] const float* tiles() const { return tiles_.data(); }
     [[nodiscard]] int tile_stride() const { return stride_ / kTileX; }
@@ -65,11 +75,12 @@ public:
         std::array<float, 3> y_px{};
         std::array<float, 3> distance{};
         float near_m = 0.05F;
+        std::array<float, 2> samples_per_px{1.0F, 1.0F};  ///< of the picture, on each axis
     };
     [[nodiscard]] const View& view() const { return view_; }
 
 private:
-    void add(const ConvexSolid& solid, int first_row, int last_row);
+    void add(const ConvexSolid& solid, int first_row, int last_row, float least_reverse);
 
     glm::ivec2 size_px_{0};
     int stride_ = 0;
@@ -78,6 +89,8 @@ private:
     Rays rays_;
     View view_;
     std::vector<float> pixels_;
+    std::vector<float> parts_;
+    std::vector<std::int32_t> masks_;
     std::vector<float> tiles_;
 };
 

@@ -96,7 +96,7 @@ public:
         state_.set_time(0.0);
         placed_.emplace(scene_, state_);
         culling_.emplace(*placed_, settings_.culling);
-        draw_list_.emplace(*placed_);
+        draw_list_.emplace(*placed_, settings_.order);
     }
 
     /// Makes the billboards of the settings, if any.
@@ -351,6 +351,7 @@ private:
         counters_.objects_behind_walls += objects.behind_walls;
         counters_.objects_occluded += objects.occluded;
         counters_.objects_too_small += objects.too_small;
+        counters_.objects_between_samples += objects.between_samples;
         counters_.objects_drawn += draw_list_->objects_drawn();
         counters_.triangles_drawn += draw_list_->triangles_drawn();
         const ClusterCounters& clusters = gpu_scene_->clusters().counters();
@@ -359,6 +360,7 @@ private:
         counters_.clusters_turned_away += clusters.turned_away;
         counters_.clusters_occluded += clusters.occluded;
         counters_.clusters_too_small += clusters.too_small;
+        counters_.clusters_between_samples += clusters.between_samples;
     }
 
     // Keeps the last three sizes: a run alternates between at most a source, its truth's tiles and a fresh view.

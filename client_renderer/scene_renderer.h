@@ -6,6 +6,7 @@
 
 #include "billboard_lod/billboard_field.h"
 #include "client_renderer/culling_settings.h"
+#include "client_renderer/draw_order.h"
 #include "client_renderer/scene_part.h"
 #include "core/camera.h"
 #include "core/clock.h"
@@ -22,15 +23,17 @@ struct DrawCounters {
     std::uint64_t objects_drawn = 0;
     std::uint64_t triangles_drawn = 0;
     std::uint64_t draw_calls = 0;
-    std::uint64_t objects_outside = 0;       ///< skipped: not in the field of view
-    std::uint64_t objects_behind_walls = 0;  ///< skipped: no portal in view shows them
-    std::uint64_t objects_occluded = 0;      ///< skipped: hidden behind others
-    std::uint64_t objects_too_small = 0;     ///< skipped: below --min-pixels
+    std::uint64_t objects_outside = 0;          ///< skipped: not in the field of view
+    std::uint64_t objects_behind_walls = 0;     ///< skipped: no portal in view shows them
+    std::uint64_t objects_occluded = 0;         ///< skipped: hidden behind others
+    std::uint64_t objects_too_small = 0;        ///< skipped: below --min-pixels
+    std::uint64_t objects_between_samples = 0;  ///< skipped: too thin to meet a sample of the picture
     std::uint64_t clusters_tested = 0;
     std::uint64_t clusters_outside = 0;
     std::uint64_t clusters_turned_away = 0;
     std::uint64_t clusters_occluded = 0;
     std::uint64_t clusters_too_small = 0;
+    std::uint64_t clusters_between_samples = 0;
     Duration culling{};  ///< deciding what is drawn, with the draws for it; zero unless the settings have a clock
     /// With a stage clock, each between two glFinish.
     double meshes_ms = 0.0;
@@ -43,6 +46,7 @@ struct SceneRendererSettings {
     Clock* clock = nullptr;              ///< for DrawCounters::culling; outlives the renderer
     BillboardSettings billboards{};      ///< mode off: none, whatever use_billboards() says
     const Clock* stage_clock = nullptr;  ///< times the stages of every draw, at the cost of waiting for each
+    DrawOrder order{};                   ///< where surfaces lie in one plane, it may decide which is seen
 };
 
 /// Belongs to one GL context and its thread: made, used and destroyed with that context current.

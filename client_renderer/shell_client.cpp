@@ -37,11 +37,13 @@ void add(DrawCounters& sum, const DrawCounters& drawn) {
     sum.objects_behind_walls += drawn.objects_behind_walls;
     sum.objects_occluded += drawn.objects_occluded;
     sum.objects_too_small += drawn.objects_too_small;
+    sum.objects_between_samples += drawn.objects_between_samples;
     sum.clusters_tested += drawn.clusters_tested;
     sum.clusters_outside += drawn.clusters_outside;
     sum.clusters_turned_away += drawn.clusters_turned_away;
     sum.clusters_occluded += drawn.clusters_occluded;
     sum.clusters_too_small += drawn.clusters_too_small;
+    sum.clusters_between_samples += drawn.clusters_between_samples;
     sum.culling += drawn.culling;
 }
 

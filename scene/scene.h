@@ -188,9 +188,11 @@ public:
     void mover_placements(std::vector<ObjectTransform>& transforms) const;
 
 private:
+    void evaluate(std::size_t node, double time_s);
+
     const Scene* scene_;
     std::vector<glm::dmat4> world_from_node_;
-    std::vector<bool> changes_;                   ///< per node: it or an ancestor is animated
+    std::vector<std::size_t> changing_;           ///< nodes that are animated or hang below one, ascending
     std::vector<std::size_t> first_channel_;      ///< per node: range in channels_of_nodes_; one more entry than nodes
     std::vector<std::size_t> channels_of_nodes_;  ///< indices into Scene::channels, grouped by node
     bool evaluated_ = false;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "tests/client_renderer/hand_made_scenes.h"
@@ -29,18 +30,19 @@ bool is_hidden(const OcclusionBuffer& buffer, const scene::Bounds& box) {
     boxes.resize(1);
     boxes.set(0, box);
     std::vector<std::uint32_t> seen;
-    std::vector<std::uint32_t> hidden;
     const std::uint32_t first = 0;
-    buffer.split(boxes, {&first, 1}, seen, hidden);
-    EXPECT_EQ(seen.size() + hidden.size(), 1U);
-    return !hidden.empty();
+    const OcclusionBuffer::Split split = buffer.split(boxes, {&first, 1}, seen);
+    EXPECT_EQ(seen.size() + split.hidden + split.between_samples, 1U);
+    // One box at a time does not tell what falls between the samples.
+    const bool hidden = buffer.hides(glm::vec3{box.min}, glm::vec3{box.max});
+    EXPECT_TRUE(split.between_samples > 0 || hidden == (split.hidden == 1));
+    return split.hidden == 1;
 }
 
 TEST(OcclusionBuffer, HidesWhatIsBehindAWall) {
     OcclusionBuffer buffer;
     buffer.begin(test::plain_camera({1024, 1024}));
     buffer.add(box_solid(box_at({0.0, 0.0, -5.5}, {2.0, 2.0, 0.5})));
-    buffer.finish();
     EXPECT_TRUE(is_hidden(buffer, box_at({0.0, 0.0, -10.0}, {3.5, 3.5, 1.0})));
     EXPECT_TRUE(is_hidden(buffer, box_at({0.0, 0.0, -5.5}, {1.0, 1.0, 0.4}))) << "inside the wall";
     EXPECT_FALSE(is_hidden(buffer, box_at({0.0, 0.0, -10.0}, {4.5, 1.0, 1.0}))) << "it looks out at both sides";
@@ -50,11 +52,48 @@ TEST(OcclusionBuffer, HidesWhatIsBehindAWall) {
     EXPECT_FALSE(is_hidden(buffer, box_at({0.0, 0.0, 0.0}, {9.0, 9.0, 9.0}))) << "around the eye";
 }
 
+TEST(OcclusionBuffer, PartsOfAPixelAddUp) {
+    // The picture has 4 x 4 pixels per pixel of the buffer; at 10 m a pixel of the buffer is 10 / 128 m wide.
+    const double pixel_m = 10.0 / 128.0;
+    const auto wall = [&](double from_px, double to_px) {
+        return scene::Bounds{{from_px * pixel_m, -1.0, -10.5}, {to_px * pixel_m, 1.0, -10.0}};
+    };
+    const auto behind = [&](double from_px, double to_px) {
+        const double far = 2.0 * pixel_m;  // at 20 m
+        return scene::Bounds{{from_px * far, -0.5, -20.5}, {to_px * far, 0.5, -20.0}};
+    };
+    OcclusionBuffer buffer;
+    buffer.begin(test::plain_camera({1024, 1024}));
+    buffer.add(box_solid(wall(0.1, 3.6)), wall(0.1, 3.6));
+    EXPECT_TRUE(is_hidden(buffer, behind(0.6, 3.2))) << "two parts of the last pixel are covered";
+    EXPECT_FALSE(is_hidden(buffer, behind(0.6, 3.7)));
+    buffer.add(box_solid(wall(3.45, 5.0)), wall(3.45, 5.0));
+    EXPECT_TRUE(is_hidden(buffer, behind(0.6, 4.4))) << "the pixel is covered by both together";
+}
+
+TEST(OcclusionBuffer, TellsWhatFallsBetweenTheSamples) {
+    OcclusionBuffer buffer;
+    buffer.begin(test::plain_camera({1024, 1024}));
+    const double pixel_m = 10.0 / 512.0;  // of the picture, at 10 m
+    BoxList boxes;
+    boxes.resize(4);
+    const auto upright = [&](double from_px, double to_px) {
+        return scene::Bounds{{from_px * pixel_m, -1.0, -10.001}, {to_px * pixel_m, 1.0, -10.0}};
+    };
+    boxes.set(0, upright(3.6, 4.4));   // between the samples at 3.5 and 4.5
+    boxes.set(1, upright(3.6, 4.49));  // so close that snapping may reach one
+    boxes.set(2, upright(3.4, 3.6));
+    boxes.set(3, {{-1e-3, -1.0, -0.1}, {1e-3, 1.0, 0.1}});  // around the eye
+    const std::array<std::uint32_t, 4> all{0, 1, 2, 3};
+    std::vector<std::uint32_t> seen;
+    EXPECT_EQ(buffer.split(boxes, all, seen).between_samples, 1U);
+    EXPECT_EQ(seen, (std::vector<std::uint32_t>{1, 2, 3}));
+}
+
 TEST(OcclusionBuffer, SolidsThatReachBehindTheEyeHide) {
     OcclusionBuffer buffer;
     buffer.begin(test::plain_camera({1024, 1024}));
     buffer.add(box_solid(box_at({6.0, 0.0, 0.0}, {5.0, 40.0, 50.0})));  // a wall along the street, from x = 1 on
-    buffer.finish();
     EXPECT_TRUE(is_hidden(buffer, box_at({14.0, 0.0, -20.0}, {1.0, 1.0, 1.0})));
     EXPECT_FALSE(is_hidden(buffer, box_at({-1.0, 0.0, -20.0}, {1.0, 1.0, 1.0})));
     EXPECT_FALSE(is_hidden(buffer, box_at({0.9, 0.0, -20.0}, {0.05, 1.0, 1.0})));
@@ -97,9 +136,8 @@ TEST(OcclusionBuffer, NeverHidesAPointThatASegmentReaches) {
                 box_at(glm::dvec3{unit(random), unit(random), unit(random)} * 8.0,
                        glm::dvec3{1.1 + unit(random), 1.1 + unit(random), 1.1 + unit(random)} * 1.5);
             walls.push_back(wall);
-            buffer.add(box_solid(wall));
+            buffer.add(box_solid(wall), wall);
         }
-        buffer.finish();
         for (int i = 0; i < 400; ++i) {
             const scene::Bounds box = box_at(glm::dvec3{unit(random), unit(random), unit(random)} * 25.0,
                                              glm::dvec3{0.6 + 0.5 * unit(random)});

@@ -55,7 +55,8 @@ Skipped expect_equal_pictures(const scene::Scene& scene, const std::string& trac
         EXPECT_EQ(some.object_id, all.object_id) << trace_name << " at " << time_s;
         const DrawCounters& counters = skipping->counters();
         EXPECT_EQ(counters.objects_tested, counters.objects_drawn + counters.objects_outside +
-                                               counters.objects_occluded + counters.objects_behind_walls);
+                                               counters.objects_occluded + counters.objects_behind_walls +
+                                               counters.objects_between_samples);
         EXPECT_EQ(drawing_all->counters().objects_drawn, counters.objects_tested);
         skipped.objects += counters.objects_tested;
         skipped.occluded += counters.objects_occluded;

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-
-#include "core/statistics.h"
+#include <functional>
+#include <iterator>
+#include <limits>
 
 namespace lw {
 
@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kEligibleShare = 0.8;
 constexpr std::uint64_t kEligibleRedraws = 64;
+const double kDefaultCap_px = BillboardSettings{}.error_cap_px;
 
 std::uint64_t redraws(const TrialFrame& frame) { return frame.counters.created + frame.counters.updated; }
 
@@ -29,23 +30,30 @@ std::vector<SweepPoint> curve_of(const BillboardBench& bench, const char* mode, 
     return curve;
 }
 
-/// Redraws of warped billboards over those of flat ones, at the FLIPs of the warped curve that the flat one reaches:
-/// the largest of these ratios.
-double redraw_ratio(const BillboardBench& bench) {
-    const std::vector<SweepPoint> flat = curve_of(bench, "flat", "error");
-    double worst = 0.0;
-    for (const SweepPoint& point : curve_of(bench, "warped", "error")) {
-        const std::optional<double> needed = redraws_for_flip(flat, point.flip);
-        if (needed && *needed > 0.0) worst = std::max(worst, point.redraws_per_frame / *needed);
-    }
-    return worst;
-}
-
-double flicker_of(const BillboardBench& bench, const char* mode, bool fades) {
-    for (const FlickerPoint& point : bench.flicker) {
+double flicker_of(std::span<const FlickerPoint> points, const char* mode, bool fades) {
+    for (const FlickerPoint& point : points) {
         if (point.mode == mode && (point.fade_frames > 0) == fades) return point.flicker;
     }
     return 0.0;
+}
+
+double flicker_ratio(std::span<const FlickerPoint> points, const char* mode) {
+    const double without = flicker_of(points, mode, false);
+    return without > 0.0 ? flicker_of(points, mode, true) / without : 0.0;
+}
+
+/// Frames of ours that were drawn right after the same frame of meshes.
+struct FramePair {
+    const TrialFrame* meshes;
+    const TrialFrame* ours;
+
+    [[nodiscard]] double speedup() const { return meshes->frame_ms / ours->frame_ms; }
+};
+
+std::vector<FramePair> pairs_of(const std::vector<TrialFrame>& meshes, const std::vector<TrialFrame>& ours) {
+    std::vector<FramePair> pairs;
+    for (std::size_t k = 0; k < std::min(meshes.size(), ours.size()); ++k) pairs.push_back({&meshes[k], &ours[k]});
+    return pairs;
 }
 
 template <class Value>
@@ -105,6 +113,14 @@ SvgPlot dimension_plot(const std::vector<TrialFrame>& frames) {
     return made;
 }
 
+SvgPlot overview_plot(const PairRun& overview) {
+    SvgPlot made = plot("Times as fast as the meshes, over the overview at 10 Hz", "path, s", "times");
+    std::vector<double> speedups;
+    for (const FramePair& pair : pairs_of(overview.meshes, overview.ours)) speedups.push_back(pair.speedup());
+    made.series = {line("", times(overview.ours), speedups)};
+    return made;
+}
+
 SvgPlot quality_plot(const PathRun& path) {
     SvgPlot made{"Likeness to the meshes along the path", "path, s", "SSIM"};
     std::vector<double> x;
@@ -122,15 +138,17 @@ SvgPlot quality_plot(const PathRun& path) {
     return made;
 }
 
-SvgPlot redraw_plot(const BillboardBench& bench) {
-    SvgPlot made = plot("Error against redraws", "redraws per frame", "FLIP");
+/// `flip_of`: of a point.
+SvgPlot redraw_plot(const BillboardBench& bench, std::string title, double SweepPoint::*flip_of) {
+    SvgPlot made = plot(std::move(title), "redraws per frame", "FLIP");
+    made.y_from_zero = false;
     for (const char* mode : {"flat", "warped"}) {
         for (const char* criterion : {"error", "angles"}) {
             SvgSeries series;
             series.label = fmt::format("{}, by {}", mode, criterion);
             for (const SweepPoint& point : curve_of(bench, mode, criterion)) {
                 series.x.push_back(point.redraws_per_frame);
-                series.y.push_back(point.flip);
+                series.y.push_back(point.*flip_of);
                 series.notes.push_back(short_number(point.value));
             }
             made.series.push_back(std::move(series));
@@ -149,38 +167,76 @@ std::vector<std::pair<std::string, SvgPlot>> plots_of(const BillboardBench& benc
     }
     plots.emplace_back("dimensions", dimension_plot(bench.path.ours()));
     plots.emplace_back("likeness", quality_plot(bench.path));
-    plots.emplace_back("redraws", redraw_plot(bench));
+    plots.emplace_back("overview", overview_plot(bench.overview));
+    plots.emplace_back("redraws", redraw_plot(bench, "Error against redraws", &SweepPoint::flip_truth));
+    plots.emplace_back("redraws_meshes",
+                       redraw_plot(bench, "Difference from the meshes against redraws", &SweepPoint::flip));
     return plots;
 }
 
 using Rows = std::vector<std::vector<std::string>>;
 
 Rows sweep_rows(std::span<const SweepPoint> points, const char* value_name) {
-    Rows rows{{"billboards", "criterion", value_name, "redraws per frame", "FLIP", "SSIM", "worst SSIM", "active",
-               "frame ms"}};
+    Rows rows{{"billboards", "criterion", value_name, "redraws per frame", "FLIP to truth", "FLIP to meshes",
+               "SSIM to meshes", "worst SSIM", "active", "frame ms", "worst update to median"}};
     for (const SweepPoint& p : points) {
         rows.push_back({p.mode, p.criterion, short_number(p.value), short_number(p.redraws_per_frame),
-                        fmt::format("{:.4f}", p.flip), fmt::format("{:.4f}", p.ssim),
-                        fmt::format("{:.4f}", p.worst_ssim), short_number(p.active), short_number(p.frame_ms)});
+                        fmt::format("{:.5f}", p.flip_truth), fmt::format("{:.5f}", p.flip),
+                        fmt::format("{:.4f}", p.ssim), fmt::format("{:.4f}", p.worst_ssim), short_number(p.active),
+                        short_number(p.frame_ms), short_number(p.worst_to_median)});
+    }
+    return rows;
+}
+
+Rows criteria_rows(const BillboardBench& bench) {
+    std::vector<SweepPoint> points{bench.meshes};
+    points.insert(points.end(), bench.caps.begin(), bench.caps.end());
+    return sweep_rows(points, "cap, px, or times the angles");
+}
+
+Rows redraw_rows(const BillboardBench& bench) {
+    Rows rows{{"flat, by", "value", "FLIP to truth", "redraws per frame", "warped, as good with", "share"}};
+    for (const RedrawShare& share : redraw_shares(bench)) {
+        rows.push_back({share.flat.criterion, short_number(share.flat.value),
+                        fmt::format("{:.5f}", share.flat.flip_truth), short_number(share.flat.redraws_per_frame),
+                        share.warped_redraws ? short_number(*share.warped_redraws) : "not reached",
+                        short_number(share.share())});
     }
     return rows;
 }
 
 Rows still_rows(std::span<const StillPoint> points) {
-    Rows rows{{"", "SSIM", "FLIP", "updates", "drawing ms", "bytes per texel"}};
+    Rows rows{{"", "SSIM", "FLIP", "updates", "choosing ms", "drawing ms", "bytes per texel"}};
     for (const StillPoint& p : points) {
         rows.push_back({p.label, fmt::format("{:.5f}", p.ssim), fmt::format("{:.5f}", p.flip),
-                        fmt::format("{}", p.updates), short_number(p.draw_ms), fmt::format("{}", p.bytes_per_texel)});
+                        fmt::format("{}", p.updates), short_number(p.choose_ms), short_number(p.draw_ms),
+                        fmt::format("{}", p.bytes_per_texel)});
     }
     return rows;
 }
 
 Rows flicker_rows(std::span<const FlickerPoint> points) {
-    Rows rows{{"billboards", "fade, frames", "flicker", "worst frame"}};
+    Rows rows{{"billboards", "fade, frames", "updates", "flicker", "worst frame"}};
     for (const FlickerPoint& p : points) {
-        rows.push_back(
-            {p.mode, fmt::format("{}", p.fade_frames), short_number(p.flicker), short_number(p.worst_flicker)});
+        rows.push_back({p.mode, fmt::format("{}", p.fade_frames), fmt::format("{}", p.updates), short_number(p.flicker),
+                        short_number(p.worst_flicker)});
     }
+    return rows;
+}
+
+Rows memory_rows(const PathRun& path) {
+    Rows rows{{"slot", "MB, 10 bytes per texel", "MB, 13 bytes", "MB, 16 bytes"}};
+    std::size_t sum = 0;
+    const auto row = [&rows](std::string label, std::size_t bytes) {
+        const double megabytes = static_cast<double>(bytes) * 1e-6;
+        rows.push_back(
+            {std::move(label), short_number(megabytes), short_number(1.3 * megabytes), short_number(1.6 * megabytes)});
+    };
+    for (std::size_t level = 0; level < kBillboardDimensions.size(); ++level) {
+        row(fmt::format("{0} x {0}", kBillboardDimensions[level]), path.bytes[level]);
+        sum += path.bytes[level];
+    }
+    row("in all", sum);
     return rows;
 }
 
@@ -192,8 +248,9 @@ Rows figure_rows(const BillboardFigures& f) {
             {"SSIM, worst", fmt::format("{:.4f}", f.ssim_min)},
             {"frames in which warped beats flat", fmt::format("{:.1f} %", 100.0 * f.warped_better)},
             {"redraws, warped to flat at equal FLIP", short_number(f.redraw_ratio)},
-            {"flicker, with fade to without", short_number(f.flicker_ratio)},
-            {"worst frame to median, by billboards", short_number(f.worst_to_median)}};
+            {"flicker of updates, with fade to without", short_number(f.flicker_ratio)},
+            {"the same while the eye moves", short_number(f.moving_flicker_ratio)},
+            {"worst update to median, with a budget", short_number(f.worst_to_median)}};
 }
 
 std::string csv_of(const PathRun& path) {
@@ -237,15 +294,62 @@ void add_points(Report& report, const BillboardBench& bench) {
             entry.set("criterion", p.criterion);
             entry.set("value", p.value);
             entry.set("redraws_per_frame", p.redraws_per_frame);
+            entry.set("flip_truth", p.flip_truth);
             entry.set("flip", p.flip);
             entry.set("ssim", p.ssim);
             entry.set("worst_ssim", p.worst_ssim);
             entry.set("frame_ms", p.frame_ms);
+            entry.set("worst_to_median", p.worst_to_median);
             report.append(path, entry);
         }
     };
+    add("billboards/meshes", std::span{&bench.meshes, 1});
     add("billboards/caps", bench.caps);
+    add("billboards/budgets", bench.budgets);
     add("billboards/thresholds", bench.thresholds);
+}
+
+void add_still(Report& report, const char* path, std::span<const StillPoint> points) {
+    for (const StillPoint& p : points) {
+        Report entry;
+        entry.set("label", p.label);
+        entry.set("ssim", p.ssim);
+        entry.set("flip", p.flip);
+        entry.set("updates", p.updates);
+        entry.set("choose_ms", p.choose_ms);
+        entry.set("draw_ms", p.draw_ms);
+        report.append(path, entry);
+    }
+}
+
+/// All tables, into the page and the summary.
+void add_tables(const BillboardBench& bench, const BillboardFigures& figures, BenchOutput& output) {
+    for (const std::vector<std::string>& row : figure_rows(figures)) {
+        output.summary += fmt::format("{:<42} {:>10}\n", row[0], row[1]);
+    }
+    const std::pair<const char*, Rows> tables[] = {
+        {"Error and redraws by criterion", criteria_rows(bench)},
+        {"Redraws for the same error", redraw_rows(bench)},
+        {"Share of the scene within which objects stay meshes", sweep_rows(bench.thresholds, "share")},
+        {"Time for updates", sweep_rows(bench.budgets, "budget, ms")},
+        {"Flicker of updates, the eye stands still", flicker_rows(bench.pops)},
+        {"Flicker while the eye moves", flicker_rows(bench.moving)},
+        {"A still camera: layouts", still_rows(bench.still)},
+        {"Layouts, 3 m beside where the billboards were drawn", still_rows(bench.layouts)},
+        {"Ways to make quads", still_rows(bench.expansions)},
+        {"Touching objects, 3 m beside where the billboards were drawn", still_rows(bench.groups)},
+        {"Flat billboards without depth, 3 m beside where they were drawn", still_rows(bench.depthless)},
+        {"Flat and warped, after motion without updates", still_rows(bench.motions)},
+        {"Memory", memory_rows(bench.path)}};
+    for (const auto& [heading, rows] : tables) {
+        output.page.add_heading(heading);
+        output.page.add_table(rows);
+        output.summary += fmt::format("\n{}\n", heading);
+        for (const std::vector<std::string>& row : rows) {
+            for (const std::string& cell : row) output.summary += fmt::format("{:>18} ", cell);
+            output.summary += "\n";
+        }
+    }
 }
 
 }  // namespace
@@ -253,29 +357,44 @@ void add_points(Report& report, const BillboardBench& bench) {
 std::optional<double> redraws_for_flip(std::span<const SweepPoint> curve, double flip) {
     std::vector<SweepPoint> sorted{curve.begin(), curve.end()};
     std::ranges::stable_sort(sorted, {}, &SweepPoint::redraws_per_frame);
-    for (std::size_t i = 1; i < sorted.size(); ++i) {
-        const SweepPoint& a = sorted[i - 1];
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
         const SweepPoint& b = sorted[i];
-        if ((a.flip - flip) * (b.flip - flip) > 0.0 || a.flip == b.flip) continue;
-        return std::lerp(a.redraws_per_frame, b.redraws_per_frame, (flip - a.flip) / (b.flip - a.flip));
+        if (b.flip_truth > flip) continue;
+        if (i == 0) return b.redraws_per_frame;
+        const SweepPoint& a = sorted[i - 1];
+        return std::lerp(a.redraws_per_frame, b.redraws_per_frame,
+                         (flip - a.flip_truth) / (b.flip_truth - a.flip_truth));
     }
     return std::nullopt;
+}
+
+std::vector<RedrawShare> redraw_shares(const BillboardBench& bench) {
+    const std::vector<SweepPoint> warped = curve_of(bench, "warped", "error");
+    std::vector<RedrawShare> shares;
+    for (const SweepPoint& flat : bench.caps) {
+        if (flat.mode != "flat") continue;
+        shares.push_back({flat, redraws_for_flip(warped, flat.flip_truth)});
+    }
+    return shares;
 }
 
 BillboardFigures figures_of(const BillboardBench& bench) {
     BillboardFigures figures;
     std::vector<double> speedups;
-    figures.speedup_min_eligible = std::numeric_limits<double>::infinity();
-    const std::vector<TrialFrame>& ours = bench.path.ours();
-    for (std::size_t k = 0; k < ours.size(); ++k) {
-        const double speedup = bench.path.meshes[k].frame_ms / ours[k].frame_ms;
-        speedups.push_back(speedup);
-        if (!eligible(ours[k])) continue;
-        ++figures.eligible;
-        figures.speedup_min_eligible = std::min(figures.speedup_min_eligible, speedup);
+    for (const FramePair& pair : pairs_of(bench.overview.meshes, bench.overview.ours)) {
+        speedups.push_back(pair.speedup());
     }
     std::ranges::sort(speedups, std::greater{});
     if (!speedups.empty()) figures.speedup_best_100 = speedups[std::min<std::size_t>(speedups.size(), 100) - 1];
+
+    figures.speedup_min_eligible = std::numeric_limits<double>::infinity();
+    std::vector<FramePair> all = pairs_of(bench.path.meshes, bench.path.ours());
+    std::ranges::copy(pairs_of(bench.overview.meshes, bench.overview.ours), std::back_inserter(all));
+    for (const FramePair& pair : all) {
+        if (!eligible(*pair.ours)) continue;
+        ++figures.eligible;
+        figures.speedup_min_eligible = std::min(figures.speedup_min_eligible, pair.speedup());
+    }
 
     figures.ssim_mean = 0.0;
     for (const PathQuality& quality : bench.path.quality) {
@@ -284,19 +403,12 @@ BillboardFigures figures_of(const BillboardBench& bench) {
         figures.ssim_min = std::min(figures.ssim_min, quality.ssim_ours);
         if (quality.ssim_warped >= quality.ssim_flat) figures.warped_better += 1.0 / count;
     }
-    const double without = flicker_of(bench, "warped", false);
-    if (without > 0.0) figures.flicker_ratio = flicker_of(bench, "warped", true) / without;
-    figures.redraw_ratio = redraw_ratio(bench);
-
-    std::vector<double> frame_ms = column(ours, [](const TrialFrame& f) { return f.frame_ms; });
-    std::ranges::sort(frame_ms);
-    if (!frame_ms.empty()) {
-        const double median_ms = percentile_of_sorted(frame_ms, 50.0);
-        for (const TrialFrame& f : ours) {
-            figures.worst_to_median =
-                std::max(figures.worst_to_median, (median_ms + f.create_ms + f.update_ms) / median_ms);
-        }
+    for (const RedrawShare& share : redraw_shares(bench)) {
+        if (share.flat.criterion == "error" && share.flat.value == kDefaultCap_px) figures.redraw_ratio = share.share();
     }
+    figures.flicker_ratio = flicker_ratio(bench.pops, "warped");
+    figures.moving_flicker_ratio = flicker_ratio(bench.moving, "warped");
+    if (!bench.budgets.empty()) figures.worst_to_median = bench.budgets.back().worst_to_median;
     return figures;
 }
 
@@ -316,6 +428,8 @@ BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene) {
     report.set("billboards/warped_better", figures.warped_better);
     report.set("billboards/redraw_ratio", figures.redraw_ratio);
     report.set("billboards/flicker_ratio", figures.flicker_ratio);
+    report.set("billboards/moving_flicker_ratio", figures.moving_flicker_ratio);
+    report.set("billboards/worst_to_median", figures.worst_to_median);
     report.set("billboards/bytes_per_pixel", bytes_per_texel(AtlasFormat::packed));
     for (std::size_t level = 0; level < kBillboardDimensions.size(); ++level) {
         report.set(fmt::format("billboards/bytes/{}", kBillboardDimensions[level]),
@@ -323,6 +437,12 @@ BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene) {
     }
     add_points(report, bench);
     add_frames(report, bench.path);
+    add_still(report, "billboards/still", bench.still);
+    add_still(report, "billboards/layouts", bench.layouts);
+    add_still(report, "billboards/expansions", bench.expansions);
+    add_still(report, "billboards/groups", bench.groups);
+    add_still(report, "billboards/depthless", bench.depthless);
+    add_still(report, "billboards/motions", bench.motions);
 
     output.plots = plots_of(bench);
     output.csv = csv_of(bench.path);
@@ -330,30 +450,7 @@ BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene) {
     output.page.add_paragraph(text_of(machine));
     output.page.add_table(figure_rows(figures));
     for (const auto& entry : output.plots) output.page.add_plot(entry.second);
-    output.page.add_heading("Error and redraws by criterion");
-    output.page.add_table(sweep_rows(bench.caps, "cap, px, or times the angles"));
-    output.page.add_heading("Share of the scene within which objects stay meshes");
-    output.page.add_table(sweep_rows(bench.thresholds, "share"));
-    output.page.add_heading("Flicker of updates");
-    output.page.add_table(flicker_rows(bench.flicker));
-    output.page.add_heading("A still camera: layouts");
-    output.page.add_table(still_rows(bench.still));
-    output.page.add_heading("Ways to make quads");
-    output.page.add_table(still_rows(bench.expansions));
-    output.page.add_heading("Touching objects, 0.6 m beside where the billboards were drawn");
-    output.page.add_table(still_rows(bench.groups));
-    for (const std::vector<std::string>& row : figure_rows(figures)) {
-        output.summary += fmt::format("{:<42} {:>10}\n", row[0], row[1]);
-    }
-    for (const Rows& rows :
-         {sweep_rows(bench.caps, "value"), sweep_rows(bench.thresholds, "share"), flicker_rows(bench.flicker),
-          still_rows(bench.still), still_rows(bench.expansions), still_rows(bench.groups)}) {
-        output.summary += "\n";
-        for (const std::vector<std::string>& row : rows) {
-            for (const std::string& cell : row) output.summary += fmt::format("{:>18} ", cell);
-            output.summary += "\n";
-        }
-    }
+    add_tables(bench, figures, output);
     return output;
 }
 

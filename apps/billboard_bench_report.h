@@ -1,6 +1,7 @@
 #pragma once
 /// The suite `billboards` as JSON, CSV, plots and a page.
 
+#include <limits>
 #include <optional>
 #include <span>
 
@@ -16,18 +17,33 @@ struct BillboardFigures {
     std::size_t eligible = 0;
     double ssim_mean = 1.0;
     double ssim_min = 1.0;
-    double warped_better = 0.0;    ///< share of the frames in which warped quads beat flat ones, updated as often
-    double flicker_ratio = 0.0;    ///< with cross-fade to without, warped
-    double redraw_ratio = 0.0;     ///< redraws of warped to flat ones at equal FLIP
-    double worst_to_median = 0.0;  ///< frame time of ours: largest share of updates above the median frame
+    double warped_better = 0.0;  ///< share of the frames in which warped quads beat flat ones, updated as often
+    double redraw_ratio = 0.0;   ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
+    double flicker_ratio = 0.0;  ///< with cross-fade to without, warped, of updates alone
+    double moving_flicker_ratio = 0.0;  ///< the same while the eye moves
+    double worst_to_median = 0.0;  ///< the median frame with the costliest updates to the median frame, with a budget
 };
 
 /// Pure.
 [[nodiscard]] BillboardFigures figures_of(const BillboardBench& bench);
 
-/// Redraws per frame that reach `flip`, by linear interpolation between the points of one curve in order of their
-/// redraws; nothing outside of it. Pure.
+/// The fewest redraws per frame with which one curve is as near to the truth as `flip`, by linear interpolation between
+/// its points in order of their redraws. Nothing where it never is. Pure.
 [[nodiscard]] std::optional<double> redraws_for_flip(std::span<const SweepPoint> curve, double flip);
+
+/// A setting of flat billboards and what warped ones need for the same FLIP to the truth.
+struct RedrawShare {
+    SweepPoint flat;
+    std::optional<double> warped_redraws;  ///< per frame; nothing: they do not get as near
+
+    /// Infinite where it is not reached.
+    [[nodiscard]] double share() const {
+        return warped_redraws ? *warped_redraws / flat.redraws_per_frame : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// Of all settings of flat billboards. Pure.
+[[nodiscard]] std::vector<RedrawShare> redraw_shares(const BillboardBench& bench);
 
 [[nodiscard]] BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene);
 

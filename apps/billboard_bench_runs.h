@@ -1,11 +1,12 @@
 #pragma once
-/// The measurements of the suite `billboards`: the path drawn in every way at once, sweeps of thresholds and caps, the
-/// flicker of updates, and small comparisons.
+/// The measurements of the suite `billboards`: the flight drawn in every way at once, sweeps of thresholds and caps,
+/// what updates look like, and a still camera.
 
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/billboard_trial.h"
+#include "apps/billboard_bench_stage.h"
 #include "apps/options.h"
 #include "core/result.h"
 
@@ -19,7 +20,7 @@ struct PathQuality {
     double ssim_ours = 1.0;    ///< warped ones, updated by their error
 };
 
-/// The whole path, all ways in turns within every frame.
+/// The whole flight, all ways in turns within every frame.
 struct PathRun {
     glm::ivec2 size_px{0};
     std::vector<TrialFrame> meshes;
@@ -30,23 +31,32 @@ struct PathRun {
     [[nodiscard]] const std::vector<TrialFrame>& ours() const { return trials.back().second; }
 };
 
-/// One setting, over a stretch of the path.
+/// Meshes and ours alone, frame by frame as a client of 10 Hz draws them.
+struct PairRun {
+    std::vector<TrialFrame> meshes;
+    std::vector<TrialFrame> ours;
+};
+
+/// One setting, over a stretch of the flight.
 struct SweepPoint {
-    std::string mode;       ///< "flat", "warped"
-    std::string criterion;  ///< "angles", "error"
-    double value = 0.0;     ///< times the usual angles, or pixels
+    std::string mode;       ///< "off", "flat", "warped"
+    std::string criterion;  ///< "angles", "error", "-"
+    double value = 0.0;     ///< times the usual angles, pixels, or the share within which all are meshes
     double redraws_per_frame = 0.0;
-    double flip = 0.0;  ///< means over frames, against meshes
+    double flip = 0.0;  ///< means over frames, against meshes of the same samples
     double ssim = 1.0;
     double worst_ssim = 1.0;
-    double active = 0.0;    ///< billboards per frame
-    double frame_ms = 0.0;  ///< median
+    double flip_truth = 0.0;       ///< against antialiased meshes
+    double active = 0.0;           ///< billboards per frame
+    double frame_ms = 0.0;         ///< median
+    double worst_to_median = 1.0;  ///< the median frame with the costliest updates, to the median frame
 };
 
 /// What updates look like from frame to frame.
 struct FlickerPoint {
     std::string mode;
     int fade_frames = 0;
+    std::uint64_t updates = 0;
     double flicker = 0.0;        ///< root of the mean energy
     double worst_flicker = 0.0;  ///< of the worst frame
 };
@@ -57,20 +67,34 @@ struct StillPoint {
     double flip = 0.0;
     std::uint64_t updates = 0;  ///< after the first frames
     double draw_ms = 0.0;       ///< median of drawing the billboards
+    double choose_ms = 0.0;     ///< median of scoring them
     int bytes_per_texel = 0;
 };
 
 struct BillboardBench {
     PathRun path;
+    PairRun overview;
     std::vector<SweepPoint> caps;        ///< error caps and angles
     std::vector<SweepPoint> thresholds;  ///< value: share of the scene's diagonal
-    std::vector<FlickerPoint> flicker;
-    std::vector<StillPoint> still;       ///< by layout, and meshes of nearest texel density
+    std::vector<SweepPoint> budgets;     ///< value: milliseconds for updates in a frame; 0: no limit
+    SweepPoint meshes;                   ///< what the sweeps' meshes are like to antialiased ones
+    std::vector<FlickerPoint> pops;      ///< the eye stands still while updates arrive
+    std::vector<FlickerPoint> moving;    ///< it moves
+    std::vector<StillPoint> still;       ///< by layout
+    std::vector<StillPoint> layouts;     ///< by layout, after a step to the side
     std::vector<StillPoint> expansions;  ///< by way to make quads
-    std::vector<StillPoint> groups;      ///< touching objects apart and in groups, flat, after a step to the side
+    std::vector<StillPoint> groups;      ///< touching objects apart and in groups, after a step to the side
+    std::vector<StillPoint> motions;     ///< flat and warped ones, after steps and turns
+    std::vector<StillPoint> depthless;   ///< flat ones with and without depth far away, after a step to the side
 };
 
 /// `scene` is finished; a GL context is current. Progress on standard error unless quiet.
 [[nodiscard]] Result<BillboardBench> run_billboard_bench(const scene::Scene& scene, const Options& options);
+
+/// Fills pops and moving: what cross-fades are worth (billboard_bench_flicker.cpp).
+[[nodiscard]] Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& bench);
+
+/// Fills still, layouts, expansions, groups, depthless and motions (billboard_bench_still.cpp).
+[[nodiscard]] Status measure_still(const BillboardStage& stage, bool quick, BillboardBench& bench);
 
 }  // namespace lw

@@ -32,11 +32,11 @@ Result<BillboardTrial> BillboardTrial::create(std::string label, const scene::Sc
     return BillboardTrial{std::move(label), clock, std::move(*renderer)};
 }
 
-const ColourImage& BillboardTrial::draw(const Camera& camera, double time_s) {
+const ColourImage& BillboardTrial::draw(const Camera& camera, double time_s, int samples_per_axis) {
     TrialFrame frame;
     frame.time_s = time_s;
     const TimePoint begin = clock_->now();
-    renderer_->draw(camera, time_s, pixels_);
+    renderer_->draw_resolved(camera, time_s, samples_per_axis, pixels_);
     frame.frame_ms = to_ms(clock_->now() - begin);
     const DrawCounters& drawn = renderer_->counters();
     frame.meshes_ms = drawn.meshes_ms;

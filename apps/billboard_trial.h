@@ -33,8 +33,9 @@ public:
     [[nodiscard]] static Result<BillboardTrial> create(std::string label, const scene::Scene& scene,
                                                        const BillboardSettings& settings, const Clock& clock);
 
-    /// Draws the next frame of the path and remembers what it cost. The picture stays until the next one.
-    const ColourImage& draw(const Camera& camera, double time_s);
+    /// Draws the next frame of the path, with `samples_per_axis` squared samples per pixel, and remembers what it cost.
+    /// The picture stays until the next one.
+    const ColourImage& draw(const Camera& camera, double time_s, int samples_per_axis = 1);
 
     [[nodiscard]] const std::string& label() const { return label_; }
     [[nodiscard]] const std::vector<TrialFrame>& frames() const { return frames_; }

@@ -1,6 +1,7 @@
 #include "billboard_lod/billboard_atlas.h"
 
 #include "core/check.h"
+#include "gl/stream_buffer.h"
 #include "shaders/billboard_blocks.h"
 
 namespace lw {
@@ -9,7 +10,13 @@ namespace {
 
 std::vector<GLenum> surface_formats(AtlasFormat format) {
     if (format == AtlasFormat::packed) return {GL_RG32UI};
+    if (format == AtlasFormat::document) return {GL_RGBA8, GL_RG16, GL_RG8};
     return {GL_RGBA8, GL_RG16, GL_RGBA8};
+}
+
+GLenum depth_format(AtlasFormat format) {
+    if (format == AtlasFormat::packed) return GL_DEPTH_COMPONENT16;
+    return format == AtlasFormat::document ? GL_DEPTH_COMPONENT24 : GL_DEPTH_COMPONENT32F;
 }
 
 glm::ivec2 driver_limit_px() {
@@ -22,15 +29,12 @@ glm::ivec2 driver_limit_px() {
     return glm::min(glm::ivec2{width, height}, glm::ivec2{texture});
 }
 
-gl::Buffer make_empty_buffer() {
-    GLuint id = 0;
-    glCreateBuffers(1, &id);
-    return gl::Buffer{id};
-}
-
 }  // namespace
 
-std::string_view defines_of(AtlasFormat format) { return format == AtlasFormat::packed ? "#define PACKED\n" : ""; }
+std::string_view defines_of(AtlasFormat format) {
+    if (format == AtlasFormat::packed) return "#define PACKED\n";
+    return format == AtlasFormat::document ? "#define SHARED_COLOUR\n" : "";
+}
 
 Result<BillboardAtlas> BillboardAtlas::create(AtlasFormat format,
                                               const std::array<int, kBillboardDimensions.size()>& capacities) {
@@ -43,7 +47,7 @@ Result<BillboardAtlas> BillboardAtlas::create(AtlasFormat format,
     auto clear = gl::Program::create({"billboards/clear.vert", "billboards/clear.frag"});
     if (!clear.ok()) return clear.error();
     atlas.clear_ = std::move(*clear);
-    atlas.rects_ = make_empty_buffer();
+    atlas.rects_ = gl::make_stream_buffer();
     atlas.rect_array_ = gl::make_vertex_array();
     const GLuint array = atlas.rect_array_.id();
     glVertexArrayVertexBuffer(array, 0, atlas.rects_.id(), 0, sizeof(glm::vec4));
@@ -63,8 +67,7 @@ bool BillboardAtlas::allocate(std::size_t level) {
     made.surfaces.reserve(3);
     for (const GLenum format : surface_formats(format_)) made.surfaces.emplace_back(size_px, format);
     for (const gl::Texture& surface : made.surfaces) colours.push_back(&surface);
-    made.depth = gl::Texture{
-        size_px, format_ == AtlasFormat::packed ? GLenum{GL_DEPTH_COMPONENT16} : GLenum{GL_DEPTH_COMPONENT32F}};
+    made.depth = gl::Texture{size_px, depth_format(format_)};
     if (glGetError() == GL_NO_ERROR) {
         auto framebuffer = gl::Framebuffer::create(colours, &made.depth);
         if (framebuffer.ok()) {
@@ -93,8 +96,7 @@ void BillboardAtlas::clear(std::size_t level, std::span<const int> slots) {
         // Row 0 is on top, NDC counts upwards.
         rects.emplace_back(2.0 * uv.x - 1.0, 1.0 - 2.0 * uv.w, 2.0 * uv.z - 1.0, 1.0 - 2.0 * uv.y);
     }
-    glNamedBufferData(rects_.id(), static_cast<GLsizeiptr>(rects.size() * sizeof(glm::vec4)), rects.data(),
-                      GL_STREAM_DRAW);
+    gl::replace(rects_, rects);
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_ALWAYS);
     glDepthMask(GL_TRUE);

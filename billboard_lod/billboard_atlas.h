@@ -18,12 +18,16 @@ namespace lw {
 
 /// What an atlas keeps per texel. Object ids are constant over a billboard and are not stored.
 enum class AtlasFormat : std::uint8_t {
-    packed,  ///< 10 bytes: surface RG32UI (shaders/billboards/packed_surface.glsl), depth 16 bits of the own range
-    full,    ///< 16 bytes: the attachments of the scene's G-buffer, depth 32 bits
+    packed,    ///< 10 bytes: surface RG32UI (shaders/billboards/packed_surface.glsl), depth 16 bits of the own range
+    document,  ///< 13 bytes, as seed 000 has it: colour and roughness 4, normal 4, metalness and share of glow 2, depth
+               ///< 3
+    full,      ///< 16 bytes: the attachments of the scene's G-buffer, depth 32 bits
 };
 
 /// Bytes of one texel. Pure.
-[[nodiscard]] constexpr int bytes_per_texel(AtlasFormat format) { return format == AtlasFormat::packed ? 10 : 16; }
+[[nodiscard]] constexpr int bytes_per_texel(AtlasFormat format) {
+    return format == AtlasFormat::packed ? 10 : format == AtlasFormat::document ? 13 : 16;
+}
 
 /// Preprocessor lines for the shaders that write or read such an atlas.
 [[nodiscard]] std::string_view defines_of(AtlasFormat format);

@@ -149,7 +149,8 @@ private:
                 queue(creations_, score, e);
             } else {
                 const double due = update_priority(entry);
-                if (due < 1.0) {
+                // What is still fading in would jump if it was drawn anew.
+                if (due < (entry.previous ? 2.0 : 1.0)) {
                     entry.shown = Shown::billboard;
                 } else {
                     queue(updates_, due, e);
@@ -240,8 +241,7 @@ private:
     }
 
     [[nodiscard]] std::size_t wanted_level(const Entry& entry) const {
-        const TexelGrid grid = texel_grid(entry.bounds, camera_, settings_.texels_per_px, 1 << 20);
-        return covering_dimension(grid.size);
+        return covering_dimension(grid_on_pixels(entry.bounds, camera_, settings_.texels_per_px).size);
     }
 
     bool evict(std::size_t level) {
@@ -290,7 +290,7 @@ private:
         Version version;
         version.slot = slot;
         version.drawn.grid =
-            texel_grid(entry.bounds, camera_, settings_.texels_per_px, kBillboardDimensions[slot.level]);
+            grid_in_slot(entry.bounds, camera_, settings_.texels_per_px, kBillboardDimensions[slot.level]);
         version.drawn.nearest_m = entry.bounds.nearest_m();
         version.drawn.farthest_m = entry.bounds.farthest_m();
         version.drawn.plane_m = entry.bounds.centre_m();
@@ -369,9 +369,12 @@ private:
         const glm::dmat4 eye_now_from_eye_drawn =
             inverse_matrix_of(camera.world_from_eye) * entry.world_from_object * version.object_from_eye_drawn;
         const AtlasLayout& layout = atlas_.layouts()[version.slot.level];
-        return settings_.mode == BillboardMode::flat
-                   ? flat_record(version.drawn, layout, version.slot.index, eye_now_from_eye_drawn, camera)
-                   : warped_record(version.drawn, layout, version.slot.index, eye_now_from_eye_drawn, camera);
+        if (settings_.mode == BillboardMode::warped) {
+            return warped_record(version.drawn, layout, version.slot.index, eye_now_from_eye_drawn, camera);
+        }
+        auto record = flat_record(version.drawn, layout, version.slot.index, eye_now_from_eye_drawn, camera);
+        if (record && version.drawn.nearest_m > settings_.depthless_beyond_m) leave_out_relief(version.drawn, *record);
+        return record;
     }
 
     void append(const Entry& entry, const Version& version, const Camera& part, float shown_from, float shown_to) {

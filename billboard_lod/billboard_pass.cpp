@@ -2,21 +2,11 @@
 
 #include <string>
 
+#include "gl/stream_buffer.h"
+
 namespace lw {
 
 namespace {
-
-gl::Buffer make_empty_buffer() {
-    GLuint id = 0;
-    glCreateBuffers(1, &id);
-    return gl::Buffer{id};
-}
-
-template <class T>
-void replace(const gl::Buffer& buffer, const std::vector<T>& elements) {
-    glNamedBufferData(buffer.id(), static_cast<GLsizeiptr>(elements.size() * sizeof(T)), elements.data(),
-                      GL_STREAM_DRAW);
-}
 
 Result<gl::Program> compile(QuadExpansion expansion, const std::string& defines) {
     if (expansion == QuadExpansion::geometry) {
@@ -53,8 +43,8 @@ Result<BillboardPass> BillboardPass::create(AtlasFormat format, QuadExpansion ex
         variant.near_m = variant.program.uniform("u_near_m");
         if (expansion != QuadExpansion::geometry) variant.first = variant.program.uniform("u_first");
     }
-    pass.records_ = make_empty_buffer();
-    pass.active_ = make_empty_buffer();
+    pass.records_ = gl::make_stream_buffer();
+    pass.active_ = gl::make_stream_buffer();
     pass.vertex_array_ = gl::make_vertex_array();
     glVertexArrayElementBuffer(pass.vertex_array_.id(), pass.active_.id());
     return pass;
@@ -83,8 +73,8 @@ void BillboardPass::draw(std::span<const DrawnQuad> quads, const BillboardAtlas&
             if (active_list_.size() > first) ranges.push_back({level, dither, first, active_list_.size() - first});
         }
     }
-    replace(records_, record_list_);
-    replace(active_, active_list_);
+    gl::replace(records_, record_list_);
+    gl::replace(active_, active_list_);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::kBindingBillboards, records_.id());
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::kBindingActive, active_.id());
     glBindVertexArray(vertex_array_.id());
@@ -106,8 +96,7 @@ void BillboardPass::draw(std::span<const DrawnQuad> quads, const BillboardAtlas&
 void BillboardPass::draw_level(const Variant& variant, std::size_t first, std::size_t count) const {
     const auto quads = static_cast<GLsizei>(count);
     if (expansion_ == QuadExpansion::geometry) {
-        const void* offset = reinterpret_cast<const void*>(first * sizeof(std::uint32_t));  // NOLINT
-        glDrawElements(GL_POINTS, quads, GL_UNSIGNED_INT, offset);
+        glDrawElements(GL_POINTS, quads, GL_UNSIGNED_INT, gl::buffer_offset(first * sizeof(std::uint32_t)));
         return;
     }
     variant.program.set(variant.first, static_cast<int>(first));

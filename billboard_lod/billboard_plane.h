@@ -36,11 +36,19 @@ struct TexelGrid {
     }
 };
 
-/// The grid that covers the projected box with `texels_per_px` texels per pixel of `camera` and lies on its pixels: the
-/// centre of every pixel is the centre of a texel, so that from where it was drawn a billboard shows exactly what the
-/// mesh would. If it needs more than `max_side` texels they grow, and lie anywhere. `bounds` is usable. Pure.
-[[nodiscard]] TexelGrid texel_grid(const ProjectedBounds& bounds, const Camera& camera, int texels_per_px,
-                                   int max_side);
+/// The grid that covers the projected box with `texels_per_px` (>= 1) texels per pixel of `camera` and lies on its
+/// pixels: the centre of every pixel is the centre of a texel, so that from where it was drawn a billboard shows
+/// exactly what the mesh would. `bounds` is usable. Pure.
+[[nodiscard]] TexelGrid grid_on_pixels(const ProjectedBounds& bounds, const Camera& camera, int texels_per_px);
+
+/// Texels per pixel and axis that a slot has at most, however small its object.
+inline constexpr int kMaxTexelsPerPx = 8;
+
+/// The grid of a slot of `max_side` texels a side: on the pixels, with at least `texels_per_px` texels per pixel and as
+/// many more as the slot has room for, since that costs no memory. If it needs more than `max_side` texels they grow,
+/// and lie anywhere. `bounds` is usable. Pure.
+[[nodiscard]] TexelGrid grid_in_slot(const ProjectedBounds& bounds, const Camera& camera, int texels_per_px,
+                                     int max_side);
 
 /// A quad parallel to the picture.
 struct BillboardPlane {

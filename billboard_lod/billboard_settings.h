@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 
 #include "billboard_lod/billboard_atlas.h"
 #include "billboard_lod/billboard_pass.h"
@@ -36,7 +37,9 @@ struct BillboardSettings {
     int fade_frames = 0;                ///< frames over which an updated billboard replaces its old version; 0: at once
     double budget_ms = 0.0;             ///< estimated time for updates and creations per frame; 0: no limit
     std::uint64_t min_triangles = 256;  ///< objects with fewer are drawn as fast as their quads
-    bool group_touching = false;        ///< static objects whose boxes overlap share one billboard
+    /// Flat billboards beyond show no depth of their own, only their plane's: what a smaller texel without depth gives.
+    double depthless_beyond_m = std::numeric_limits<double>::infinity();
+    bool group_touching = false;  ///< static objects whose boxes overlap share one billboard
 };
 
 }  // namespace lw

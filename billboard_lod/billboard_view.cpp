@@ -142,4 +142,9 @@ std::optional<shader::BillboardRecord> flat_record(const DrawnBillboard& billboa
     return record;
 }
 
+void leave_out_relief(const DrawnBillboard& billboard, shader::BillboardRecord& record) {
+    record.depth.x = 0.0f;
+    record.depth.y = static_cast<float>(1.0 / billboard.plane_m);
+}
+
 }  // namespace lw

@@ -37,4 +37,7 @@ struct DepthCoding {
                                                                  const glm::dmat4& eye_now_from_eye_drawn,
                                                                  const Camera& camera);
 
+/// Gives all of a flat billboard the depth of its plane. `record` is flat_record() of `billboard`. Pure.
+void leave_out_relief(const DrawnBillboard& billboard, shader::BillboardRecord& record);
+
 }  // namespace lw

@@ -3,28 +3,12 @@
 #include <cstddef>
 
 #include "client_renderer/packed_vertex.h"
+#include "gl/stream_buffer.h"
 #include "shaders/billboard_blocks.h"
 
 namespace lw {
 
 namespace {
-
-gl::Buffer make_empty_buffer() {
-    GLuint id = 0;
-    glCreateBuffers(1, &id);
-    return gl::Buffer{id};
-}
-
-template <class T>
-void replace(const gl::Buffer& buffer, const std::vector<T>& elements) {
-    glNamedBufferData(buffer.id(), static_cast<GLsizeiptr>(elements.size() * sizeof(T)), elements.data(),
-                      GL_STREAM_DRAW);
-}
-
-// GL takes an offset into the bound buffer as a pointer.
-const void* command_offset(std::size_t command) {
-    return reinterpret_cast<const void*>(command * sizeof(DrawCommand));  // NOLINT(performance-no-int-to-ptr)
-}
 
 /// The array of the G-buffer pass with longer instances that also carry a view.
 gl::VertexArray make_view_array(const GpuScene& gpu_scene, const gl::Buffer& views) {
@@ -48,8 +32,12 @@ gl::VertexArray make_view_array(const GpuScene& gpu_scene, const gl::Buffer& vie
 }  // namespace
 
 BillboardPainter::BillboardPainter(const scene::Scene& scene, const scene::SceneState& state, const GpuScene& gpu_scene)
-    : scene_{scene}, state_{state}, gpu_scene_{gpu_scene}, views_{make_empty_buffer()}, commands_{make_empty_buffer()} {
-    replace(views_, std::vector<PackedView>(1));
+    : scene_{scene},
+      state_{state},
+      gpu_scene_{gpu_scene},
+      views_{gl::make_stream_buffer()},
+      commands_{gl::make_stream_buffer()} {
+    gl::replace(views_, std::vector<PackedView>(1));
     vertex_array_ = make_view_array(gpu_scene, views_);
     for (std::vector<Range>& ranges : ranges_) ranges.resize(scene.meshes.size());
 }
@@ -106,8 +94,8 @@ std::uint64_t BillboardPainter::submit() {
             }
         }
     }
-    replace(views_, packed_);
-    replace(commands_, command_list_);
+    gl::replace(views_, packed_);
+    gl::replace(commands_, command_list_);
     glBindVertexArray(vertex_array_.id());
     glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
     glEnable(GL_DEPTH_TEST);
@@ -116,7 +104,8 @@ std::uint64_t BillboardPainter::submit() {
     for (const BatchRange& range : batch_ranges) {
         gpu_scene_.bind(gpu_scene_.batches()[range.batch], GpuScene::Into::billboards);
         glFrontFace(range.mirrored ? GL_CW : GL_CCW);
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, command_offset(range.first_command),
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                    gl::buffer_offset(range.first_command * sizeof(DrawCommand)),
                                     static_cast<GLsizei>(range.command_count), 0);
     }
     glFrontFace(GL_CCW);

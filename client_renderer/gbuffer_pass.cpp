@@ -1,27 +1,11 @@
 #include "client_renderer/gbuffer_pass.h"
 
 #include "client_renderer/packed_vertex.h"
+#include "gl/stream_buffer.h"
 
 namespace lw {
 
 namespace {
-
-gl::Buffer make_empty_buffer() {
-    GLuint id = 0;
-    glCreateBuffers(1, &id);
-    return gl::Buffer{id};
-}
-
-template <class T>
-void replace(const gl::Buffer& buffer, const std::vector<T>& elements) {
-    glNamedBufferData(buffer.id(), static_cast<GLsizeiptr>(elements.size() * sizeof(T)), elements.data(),
-                      GL_STREAM_DRAW);
-}
-
-// GL takes an offset into the bound buffer as a pointer.
-const void* command_offset(std::size_t command) {
-    return reinterpret_cast<const void*>(command * sizeof(DrawCommand));  // NOLINT(performance-no-int-to-ptr)
-}
 
 void begin(const RenderTargets& targets, const gl::VertexArray& vertex_array, const gl::Buffer& commands) {
     targets.gbuffer.bind();
@@ -48,16 +32,16 @@ void end() {
 }  // namespace
 
 GBufferPass::GBufferPass(const GpuScene& gpu_scene)
-    : gpu_scene_{gpu_scene}, instances_{make_empty_buffer()}, commands_{make_empty_buffer()} {
-    replace(instances_, std::vector<PackedInstance>(1));
+    : gpu_scene_{gpu_scene}, instances_{gl::make_stream_buffer()}, commands_{gl::make_stream_buffer()} {
+    gl::replace(instances_, std::vector<PackedInstance>(1));
     vertex_array_ =
         make_vertex_array(gpu_scene.surface_vertices(), gpu_scene.texture_vertices(), instances_, gpu_scene.indices());
 }
 
 std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targets, GpuScene::Into into) {
     if (!list.commands().empty()) {
-        replace(instances_, list.instances());
-        replace(commands_, list.commands());
+        gl::replace(instances_, list.instances());
+        gl::replace(commands_, list.commands());
     }
     begin(targets, vertex_array_, commands_);
     // The colours need no clearing: lighting looks at covered pixels only. Ids and depth are read everywhere.
@@ -68,7 +52,8 @@ std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targe
     for (const DrawRange& range : list.ranges()) {
         gpu_scene_.bind(gpu_scene_.batches()[static_cast<std::size_t>(range.batch)], into);
         glFrontFace(range.mirrored ? GL_CW : GL_CCW);
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, command_offset(range.first_command),
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                    gl::buffer_offset(range.first_command * sizeof(DrawCommand)),
                                     static_cast<GLsizei>(range.command_count), 0);
     }
     end();
@@ -76,17 +61,17 @@ std::uint64_t GBufferPass::draw(const DrawList& list, const RenderTargets& targe
 }
 
 void GBufferPass::warm_up(const RenderTargets& targets) {
-    replace(instances_, std::vector<PackedInstance>(1));
+    gl::replace(instances_, std::vector<PackedInstance>(1));
     std::vector<DrawCommand> commands;
     for (const std::vector<MeshPart>& parts : gpu_scene_.parts()) {
         commands.push_back({3, 1, parts.front().first_index, parts.front().base_vertex, 0});
     }
     if (commands.empty()) return;
-    replace(commands_, commands);
+    gl::replace(commands_, commands);
     begin(targets, vertex_array_, commands_);
     for (std::size_t b = 0; b < commands.size(); ++b) {
         gpu_scene_.bind(gpu_scene_.batches()[b]);
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, command_offset(b), 1, 0);
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, gl::buffer_offset(b * sizeof(DrawCommand)), 1, 0);
     }
     end();
 }

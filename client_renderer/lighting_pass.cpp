@@ -1,14 +1,10 @@
 #include "client_renderer/lighting_pass.h"
 
+#include "gl/stream_buffer.h"
+
 namespace lw {
 
 namespace {
-
-gl::Buffer make_empty_buffer() {
-    GLuint id = 0;
-    glCreateBuffers(1, &id);
-    return gl::Buffer{id};
-}
 
 void bind_texture(int unit, const gl::Texture& texture) {
     glBindTextureUnit(static_cast<GLuint>(unit), texture.id());
@@ -32,8 +28,8 @@ Result<LightingPass> LightingPass::create(bool point_lights) {
     }
     pass.surfaces_ = std::move(*surfaces);
     pass.sky_ = std::move(*sky);
-    pass.light_block_ = make_empty_buffer();
-    pass.tile_masks_ = make_empty_buffer();
+    pass.light_block_ = gl::make_stream_buffer();
+    pass.tile_masks_ = gl::make_stream_buffer();
     pass.no_attributes_ = gl::make_vertex_array();
     return pass;
 }

@@ -10,7 +10,7 @@ layout(binding = kUnitAtlasDepth) uniform sampler2D u_depth;
 #ifdef PACKED
 layout(binding = kUnitAtlasSurface) uniform usampler2D u_surface;
 #else
-layout(binding = kUnitAtlasSurface) uniform sampler2D u_albedo_roughness;
+layout(binding = kUnitAtlasSurface) uniform sampler2D u_albedo_roughness;  // the shared colour where there is one
 layout(binding = kUnitAtlasNormal) uniform sampler2D u_normal;
 layout(binding = kUnitAtlasEmissive) uniform sampler2D u_emissive_metallic;
 #endif
@@ -101,6 +101,10 @@ void main() {
 
 #ifdef PACKED
     unpack_surface(texelFetch(u_surface, texel, 0).rg, o_albedo_roughness, o_normal, o_emissive_metallic);
+#elif defined(SHARED_COLOUR)
+    o_normal = texelFetch(u_normal, texel, 0).rg;
+    split_colour(texelFetch(u_albedo_roughness, texel, 0), texelFetch(u_emissive_metallic, texel, 0).rg,
+                 o_albedo_roughness, o_emissive_metallic);
 #else
     o_albedo_roughness = texelFetch(u_albedo_roughness, texel, 0);
     o_normal = texelFetch(u_normal, texel, 0).rg;

@@ -28,8 +28,10 @@ layout(binding = kUnitEmissive) uniform sampler2D u_emissive;
 layout(binding = kUnitBehind) uniform sampler2D u_behind;
 #endif
 
-#ifdef PACKED
+#if defined(PACKED) || defined(SHARED_COLOUR)
 #include "billboards/packed_surface.glsl"
+#endif
+#ifdef PACKED
 layout(location = 0) out uvec2 o_packed;
 #else
 layout(location = 0) out vec4 o_albedo_roughness;
@@ -112,6 +114,11 @@ void main() {
     vec4 emissive_metallic = vec4(sqrt(clamp(emissive, 0.0, 1.0)), metallic_roughness.x);
 #ifdef PACKED
     o_packed = packed_surface(albedo_roughness, stored_normal, emissive_metallic);
+#elif defined(SHARED_COLOUR)
+    float share;
+    o_albedo_roughness = shared_colour(albedo_roughness, emissive_metallic, share);
+    o_normal = stored_normal;
+    o_emissive_metallic = vec4(emissive_metallic.a, share, 0.0, 0.0);
 #else
     o_albedo_roughness = albedo_roughness;
     o_normal = stored_normal;

@@ -12,7 +12,7 @@ SweepPoint sweep_point(const char* mode, double redraws, double flip) {
     point.mode = mode;
     point.criterion = "error";
     point.redraws_per_frame = redraws;
-    point.flip = flip;
+    point.flip_truth = flip;
     return point;
 }
 
@@ -31,8 +31,23 @@ TEST(BillboardBench, RedrawsForAFlipAreInterpolated) {
                                         sweep_point("flat", 40, 0.02)};
     EXPECT_DOUBLE_EQ(*redraws_for_flip(curve, 0.03), 25.0);
     EXPECT_DOUBLE_EQ(*redraws_for_flip(curve, 0.015), 70.0);
-    EXPECT_FALSE(redraws_for_flip(curve, 0.005).has_value()) << "flatter than flat quads get";
+    EXPECT_DOUBLE_EQ(*redraws_for_flip(curve, 0.05), 10.0) << "the fewest that were tried do";
+    EXPECT_FALSE(redraws_for_flip(curve, 0.005).has_value()) << "nearer than flat quads get";
     EXPECT_FALSE(redraws_for_flip({}, 0.02).has_value());
+}
+
+TEST(BillboardBench, SharesOfRedrawsAreTakenAtTheErrorOfFlatOnes) {
+    BillboardBench bench;
+    bench.caps = {sweep_point("flat", 100, 0.01), sweep_point("flat", 50, 0.03), sweep_point("warped", 80, 0.02),
+                  sweep_point("warped", 4, 0.03)};
+    bench.caps[1].value = 2.0;
+    const std::vector<RedrawShare> shares = redraw_shares(bench);
+    ASSERT_EQ(shares.size(), 2U);
+    EXPECT_FALSE(shares[0].warped_redraws.has_value());
+    EXPECT_TRUE(std::isinf(shares[0].share()));
+    EXPECT_DOUBLE_EQ(shares[1].share(), 0.08);
+    bench.path.trials = {{"ours", {}}};
+    EXPECT_DOUBLE_EQ(figures_of(bench).redraw_ratio, 0.08) << "at the default cap, 2 px";
 }
 
 TEST(BillboardBench, FiguresCountOnlyEligibleFrames) {
@@ -41,10 +56,12 @@ TEST(BillboardBench, FiguresCountOnlyEligibleFrames) {
     bench.path.trials = {
         {"ours", {frame_of(10, 3, 100), frame_of(25, 64, 80), frame_of(90, 65, 100), frame_of(95, 0, 79)}}};
     bench.path.quality = {{0.0, 0.9, 0.95, 0.98}, {1.0, 0.96, 0.95, 0.94}};
+    bench.overview.meshes = {frame_of(100, 0, 0), frame_of(100, 0, 0)};
+    bench.overview.ours = {frame_of(5, 0, 100), frame_of(8, 100, 100)};
     const BillboardFigures figures = figures_of(bench);
-    EXPECT_EQ(figures.eligible, 2U) << "too many updates, too few replaceable triangles";
+    EXPECT_EQ(figures.eligible, 3U) << "too many updates, too few replaceable triangles";
     EXPECT_DOUBLE_EQ(figures.speedup_min_eligible, 4.0);
-    EXPECT_DOUBLE_EQ(figures.speedup_best_100, 100.0 / 95.0) << "fewer than 100 frames: the least of all";
+    EXPECT_DOUBLE_EQ(figures.speedup_best_100, 12.5) << "fewer than 100 frames: the least of all";
     EXPECT_NEAR(figures.ssim_mean, 0.96, 1e-12);
     EXPECT_DOUBLE_EQ(figures.ssim_min, 0.94);
     EXPECT_DOUBLE_EQ(figures.warped_better, 0.5);

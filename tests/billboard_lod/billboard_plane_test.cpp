@@ -51,7 +51,7 @@ TEST(BillboardPlane, CoveringDimensionHoldsEveryPixel) {
 TEST(BillboardPlane, GridLiesOnThePixels) {
     // Tangent per pixel: 4 / 200 = 0.02 across and 2 / 100 = 0.02 upwards.
     const ProjectedBounds bounds = bounds_with_ndc({-0.101, -0.2525}, {0.099, 0.2501});
-    const TexelGrid grid = texel_grid(bounds, plain_camera(), 1, 512);
+    const TexelGrid grid = grid_on_pixels(bounds, plain_camera(), 1);
     EXPECT_DOUBLE_EQ(grid.per_texel.x, 0.02);
     EXPECT_DOUBLE_EQ(grid.per_texel.y, 0.02);
     // Tangents -0.202 .. 0.198: pixels 89.9 .. 109.9, so texels 89 .. 110; -0.2525 .. 0.2501: rows 37.495 .. 62.625.
@@ -63,7 +63,7 @@ TEST(BillboardPlane, GridLiesOnThePixels) {
 
 TEST(BillboardPlane, WithTwoTexelsPerPixelACentreMeetsEveryPixelCentre) {
     const Camera camera = plain_camera();
-    const TexelGrid grid = texel_grid(bounds_with_ndc({-0.101, -0.2525}, {0.099, 0.2501}), camera, 2, 512);
+    const TexelGrid grid = grid_on_pixels(bounds_with_ndc({-0.101, -0.2525}, {0.099, 0.2501}), camera, 2);
     EXPECT_DOUBLE_EQ(grid.per_texel.x, 0.01);
     // The centre of pixel 100 is at tangent 0.01; counted in texels from the grid's edge it is half of something odd.
     const double in_texels = (0.01 - grid.left) / grid.per_texel.x;
@@ -78,13 +78,25 @@ TEST(BillboardPlane, WithTwoTexelsPerPixelACentreMeetsEveryPixelCentre) {
 }
 
 TEST(BillboardPlane, AGridThatDoesNotFitItsSlotHasLargerTexels) {
-    const TexelGrid grid = texel_grid(bounds_with_ndc({-0.1, -0.3}, {0.1, 0.3}), plain_camera(), 1, 16);
+    const TexelGrid grid = grid_in_slot(bounds_with_ndc({-0.1, -0.3}, {0.1, 0.3}), plain_camera(), 1, 16);
     // 0.4 x 0.6 of tangent in 16 texels a side: 0.0375 each.
     EXPECT_DOUBLE_EQ(grid.per_texel.x, 0.0375);
     EXPECT_DOUBLE_EQ(grid.per_texel.y, 0.0375);
     EXPECT_EQ(grid.size, glm::ivec2(11, 16));
     EXPECT_DOUBLE_EQ(grid.left, -0.2);
     EXPECT_DOUBLE_EQ(grid.up, 0.3);
+}
+
+TEST(BillboardPlane, AGridFillsItsSlotWithDenserTexels) {
+    // 20 x 30 pixels and a bit: 21 x 31. In 64 texels a side two per pixel, in 128 four, in 32 one.
+    const ProjectedBounds bounds = bounds_with_ndc({-0.101, -0.301}, {0.099, 0.299});
+    const auto texels_per_px = [&](int max_side) {
+        return std::lround(0.02 / grid_in_slot(bounds, plain_camera(), 1, max_side).per_texel.x);
+    };
+    EXPECT_EQ(texels_per_px(32), 1);
+    EXPECT_EQ(texels_per_px(64), 2);
+    EXPECT_EQ(texels_per_px(128), 4);
+    EXPECT_EQ(texels_per_px(512), kMaxTexelsPerPx) << "and no more than make a difference";
 }
 
 TEST(BillboardPlane, LiesAtTheObjectsDistance) {

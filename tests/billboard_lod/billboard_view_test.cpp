@@ -106,6 +106,17 @@ TEST(FlatRecord, IsTheQuadOfTheDocument) {
     EXPECT_EQ(record->slot, glm::vec4(128.0f, 128.0f, 100.0f, 100.0f));
 }
 
+TEST(FlatRecord, WithoutReliefIsAsDeepAsItsPlane) {
+    const glm::dmat4 now = glm::translate(glm::dmat4{1.0}, {0.5, 0.0, 2.0});
+    auto record = flat_record(ahead(), layout(), 5, now, plain_camera());
+    ASSERT_TRUE(record.has_value());
+    leave_out_relief(ahead(), *record);
+    // As the shader has it: 1 / (texel * x + y) + z, 10 m when drawn and 8 m now, whatever the texel.
+    for (const float texel : {0.01f, 1.0f}) {
+        EXPECT_NEAR(1.0f / (texel * record->depth.x + record->depth.y) + record->depth.z, 8.0f, 1e-5f);
+    }
+}
+
 TEST(UpdateCost, FollowsWhatIsMeasured) {
     UpdateCost cost;
     const double before_ms = cost.estimated_ms(6000);

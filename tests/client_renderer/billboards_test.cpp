@@ -67,7 +67,7 @@ TEST_F(GlBillboards, FromWhereTheyWereDrawnShowWhatTheMeshesShow) {
     const scene::Scene scene = few_chairs();
     const Camera camera = outside(scene);
     for (const BillboardMode mode : {BillboardMode::flat, BillboardMode::warped}) {
-        for (const AtlasFormat format : {AtlasFormat::packed, AtlasFormat::full}) {
+        for (const AtlasFormat format : {AtlasFormat::packed, AtlasFormat::document, AtlasFormat::full}) {
             BillboardSettings settings = with_mode(mode);
             settings.format = format;
             auto renderer = make(scene, settings);

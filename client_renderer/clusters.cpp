@@ -24,12 +24,11 @@ struct RelativePlacement {
     float origin[3];
 };
 
+/// Of one instance.
 struct ClusterTest {
     RelativePlacement relative_from_object;
-    FloatFrustum frustum_relative;
-    OcclusionBuffer::View view_relative;
-    const OcclusionBuffer* occlusion;
-    float least_size_per_distance;
+    float eye_object[3];
+    float margin_object;
 };
 
 }  // namespace lw
@@ -61,31 +60,59 @@ HWY_INLINE BoxVector placed(const BoxVector& object, const RelativePlacement& pl
     return {to[0], to[1], to[2], reach[0], reach[1], reach[2]};
 }
 
-void test_here(const BoxList& boxes, const ClusterRange& range, const ClusterTest& test, std::uint8_t* drawn,
+/// Clusters whose triangles are all turned away from every eye within the margin.
+HWY_INLINE MF turned_away(const float* cones, std::size_t stride, const ClusterTest& test) {
+    const DF d;
+    const auto row = [&](std::size_t which) HWY_ATTR { return hn::LoadU(d, cones + which * stride); };
+    const VF x = hn::Sub(row(0), hn::Set(d, test.eye_object[0]));
+    const VF y = hn::Sub(row(1), hn::Set(d, test.eye_object[1]));
+    const VF z = hn::Sub(row(2), hn::Set(d, test.eye_object[2]));
+    const VF margin = hn::Set(d, test.margin_object);
+    const VF along = hn::Sub(hn::MulAdd(x, row(3), hn::MulAdd(y, row(4), hn::Mul(z, row(5)))), margin);
+    const VF distance = hn::Add(hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)))), margin);
+    const VF cutoff = row(6);
+    return hn::And(hn::And(hn::Le(cutoff, hn::Set(d, 1.0F)), hn::Gt(along, hn::Zero(d))),
+                   hn::Ge(along, hn::Mul(cutoff, distance)));
+}
+
+/// Clusters at least a pixel of the buffer large: smaller ones lie in the same pixels as their object, which was not
+/// hidden, and there are many of them far away.
+HWY_INLINE MF worth_a_test(const Projected& projected) {
+    const DF d;
+    const VF width = hn::Sub(hn::Load(d, projected.x1.data()), hn::Load(d, projected.x0.data()));
+    const VF height = hn::Sub(hn::Load(d, projected.y1.data()), hn::Load(d, projected.y0.data()));
+    return hn::Ge(hn::Max(width, height), hn::Set(d, 1.0F));
+}
+
+void test_here(const Clusters& clusters, const ClusterRange& range, const ClusterTest& test, std::uint8_t* drawn,
                ClusterCounters& counters) {
+    const Clusters::View& view = clusters.view();
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
     for (std::uint32_t i = 0; i < range.count; i += lanes) {
         const std::uint32_t count = std::min(lanes, range.count - i);
-        std::uint32_t wanted = 0;
-        for (std::uint32_t k = 0; k < count; ++k) wanted |= std::uint32_t{drawn[i + k]} << k;
-        if (wanted == 0) continue;
-        const BoxVector relative = placed(load_boxes(boxes, range.first + i), test.relative_from_object);
-        std::uint32_t bits = wanted & bits_of(in_frustum(relative, test.frustum_relative, FloatFrustum::kAllPlanes));
-        counters.outside += static_cast<std::uint64_t>(std::popcount(wanted & ~bits));
-        if (test.least_size_per_distance > 0.0F) {
-            const std::uint32_t large = bits & bits_of(large_enough(relative, {}, test.least_size_per_distance));
+        const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
+        std::uint32_t bits =
+            all & ~bits_of(turned_away(clusters.cone_row(0) + range.first + i, clusters.cone_stride(), test));
+        counters.turned_away += static_cast<std::uint64_t>(std::popcount(all & ~bits));
+        const BoxVector relative = placed(load_boxes(clusters.boxes(), range.first + i), test.relative_from_object);
+        const std::uint32_t inside =
+            bits & bits_of(in_frustum(relative, view.frustum_relative, FloatFrustum::kAllPlanes));
+        counters.outside += static_cast<std::uint64_t>(std::popcount(bits & ~inside));
+        bits = inside;
+        if (view.least_size_per_distance > 0.0F) {
+            const std::uint32_t large = bits & bits_of(large_enough(relative, {}, view.least_size_per_distance));
             counters.too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
             bits = large;
         }
-        if (test.occlusion != nullptr && bits != 0) {
+        if (view.occlusion != nullptr && bits != 0) {
             Projected projected;
-            project(relative, test.view_relative, projected);
-            const std::uint32_t sampled = bits & bits_of(meets_sample(projected, test.view_relative));
+            project(relative, view.buffer_relative, projected);
+            const std::uint32_t sampled = bits & bits_of(meets_sample(projected, view.buffer_relative));
             counters.between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
             bits = sampled;
-            for (std::uint32_t rest = bits; rest != 0; rest &= rest - 1) {
+            for (std::uint32_t rest = bits & bits_of(worth_a_test(projected)); rest != 0; rest &= rest - 1) {
                 const auto at = static_cast<std::uint32_t>(std::countr_zero(rest));
-                if (!is_hidden(*test.occlusion, lane(projected, at))) continue;
+                if (!is_hidden(*view.occlusion, lane(projected, at))) continue;
                 bits &= ~(1U << at);
                 ++counters.occluded;
             }
@@ -113,32 +140,22 @@ constexpr float kEdgeOn = 0.1F;
 // as long as 30 triangles.
 constexpr std::uint32_t kWorthADraw = 3 * 32;
 
-ClusterTest test_of(const glm::dmat4& world_from_object, const ClusterView& view) {
+ClusterTest test_of(const glm::dmat4& world_from_object, const glm::dvec3& eye_world, double margin_m) {
     ClusterTest test{};
     for (int row = 0; row < 3; ++row) {
         for (int column = 0; column < 3; ++column) {
             test.relative_from_object.linear[row][column] = static_cast<float>(world_from_object[column][row]);
         }
-        test.relative_from_object.origin[row] = static_cast<float>(world_from_object[3][row] - view.eye_world[row]);
+        test.relative_from_object.origin[row] = static_cast<float>(world_from_object[3][row] - eye_world[row]);
     }
-    Frustum relative = view.frustum_world;
-    for (glm::dvec4& plane : relative.planes) plane.w += glm::dot(glm::dvec3{plane}, view.eye_world);
-    test.frustum_relative = rounded(relative);
-    test.occlusion = view.occlusion;
-    test.least_size_per_distance = static_cast<float>(view.least_size_per_distance);
-    if (view.occlusion != nullptr) {
-        test.view_relative = view.occlusion->view();
-        test.view_relative.eye_world = {};
-    }
+    const glm::dmat3 inverse = glm::inverse(glm::dmat3{world_from_object});
+    const glm::dvec3 eye_object = inverse * (eye_world - glm::dvec3{world_from_object[3]});
+    // The margin in object space, as far as the inverse stretches it at most.
+    double stretch = 0.0;
+    for (int column = 0; column < 3; ++column) stretch += glm::dot(inverse[column], inverse[column]);
+    for (int i = 0; i < 3; ++i) test.eye_object[i] = static_cast<float>(eye_object[i]);
+    test.margin_object = static_cast<float>(margin_m * std::sqrt(stretch));
     return test;
-}
-
-/// Of the cone's triangles, for every eye within `margin` of `eye`, object space.
-bool is_turned_away(const Clusters::Cone& cone, const glm::dvec3& eye, double margin) {
-    if (cone.cutoff > 1.0F) return false;
-    const glm::dvec3 to_apex = glm::dvec3{cone.apex_object} - eye;
-    const double along = glm::dot(to_apex, glm::dvec3{cone.axis_object}) - margin;
-    return along > 0.0 && along >= cone.cutoff * (glm::length(to_apex) + margin);
 }
 
 }  // namespace
@@ -183,25 +200,39 @@ ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<st
 void Clusters::finish() {
     boxes_.resize(bounds_.size());
     for (std::size_t i = 0; i < bounds_.size(); ++i) boxes_.set(i, bounds_[i]);
+    // A vector may begin at any cluster.
+    constexpr std::size_t kMostLanes = 64;
+    cone_stride_ = bounds_.size() + kMostLanes;
+    cone_rows_.assign(7 * cone_stride_, 2.0F);
+    for (std::size_t i = 0; i < cones_.size(); ++i) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<glm::length_t>(axis);
+            cone_rows_[axis * cone_stride_ + i] = cones_[i].apex_object[a];
+            cone_rows_[(3 + axis) * cone_stride_ + i] = cones_[i].axis_object[a];
+        }
+        cone_rows_[6 * cone_stride_ + i] = cones_[i].cutoff;
+    }
 }
 
-void Clusters::append_runs(const ClusterRange& range, const glm::dmat4& world_from_object, const ClusterView& view,
+void Clusters::begin(const ClusterView& view) {
+    eye_world_ = view.eye_world;
+    reveal_margin_m_ = view.reveal_margin_m;
+    Frustum relative = view.frustum_world;
+    for (glm::dvec4& plane : relative.planes) plane.w += glm::dot(glm::dvec3{plane}, view.eye_world);
+    view_.frustum_relative = rounded(relative);
+    view_.occlusion = view.occlusion;
+    view_.least_size_per_distance = static_cast<float>(view.least_size_per_distance);
+    if (view.occlusion == nullptr) return;
+    view_.buffer_relative = view.occlusion->view();
+    view_.buffer_relative.eye_world = {};
+}
+
+void Clusters::append_runs(const ClusterRange& range, const glm::dmat4& world_from_object,
                            std::vector<IndexRun>& runs) {
-    drawn_.assign(range.count, 1);
+    drawn_.resize(std::max<std::size_t>(drawn_.size(), range.count));
     counters_.tested += range.count;
-    const glm::dmat3 linear{world_from_object};
-    const glm::dmat3 inverse = glm::inverse(linear);
-    const glm::dvec3 eye_object = inverse * (view.eye_world - glm::dvec3{world_from_object[3]});
-    // The margin in object space, as far as the inverse stretches it at most.
-    double stretch = 0.0;
-    for (int column = 0; column < 3; ++column) stretch += glm::dot(inverse[column], inverse[column]);
-    const double margin_object = view.reveal_margin_m * std::sqrt(stretch);
-    for (std::uint32_t i = 0; i < range.count; ++i) {
-        if (!is_turned_away(cones_[range.first + i], eye_object, margin_object)) continue;
-        drawn_[i] = 0;
-        ++counters_.turned_away;
-    }
-    HWY_DYNAMIC_DISPATCH(test_here)(boxes_, range, test_of(world_from_object, view), drawn_.data(), counters_);
+    const ClusterTest test = test_of(world_from_object, eye_world_, reveal_margin_m_);
+    HWY_DYNAMIC_DISPATCH(test_here)(*this, range, test, drawn_.data(), counters_);
     const std::size_t first_new = runs.size();
     for (std::uint32_t i = 0; i < range.count; ++i) {
         if (drawn_[i] == 0) continue;

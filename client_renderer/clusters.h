@@ -61,9 +61,11 @@ public:
     /// Ends adding.
     void finish();
 
+    /// Before the runs of a view; what the view points to outlives them.
+    void begin(const ClusterView& view);
+
     /// Appends the runs of a part that an instance shows. It may keep what is not seen, never leave out what is.
-    void append_runs(const ClusterRange& range, const glm::dmat4& world_from_object, const ClusterView& view,
-                     std::vector<IndexRun>& runs);
+    void append_runs(const ClusterRange& range, const glm::dmat4& world_from_object, std::vector<IndexRun>& runs);
 
     [[nodiscard]] ClusterCounters& counters() { return counters_; }
 
@@ -76,6 +78,18 @@ public:
     };
     [[nodiscard]] const std::vector<Cone>& cones() const { return cones_; }
     [[nodiscard]] const BoxList& boxes() const { return boxes_; }
+    /// Seven arrays, cone_stride() apart: apex x y z, axis x y z, cutoff.
+    [[nodiscard]] const float* cone_row(std::size_t which) const { return cone_rows_.data() + which * cone_stride_; }
+    [[nodiscard]] std::size_t cone_stride() const { return cone_stride_; }
+
+    /// A view in single precision, relative to its eye.
+    struct View {
+        FloatFrustum frustum_relative;
+        OcclusionBuffer::View buffer_relative;
+        const OcclusionBuffer* occlusion = nullptr;
+        float least_size_per_distance = 0.0F;
+    };
+    [[nodiscard]] const View& view() const { return view_; }
 
 private:
     std::vector<scene::Bounds> bounds_;         ///< object space
@@ -83,7 +97,12 @@ private:
     std::vector<std::uint32_t> first_indices_;  ///< of each cluster in its part
     std::vector<std::uint32_t> index_counts_;
     BoxList boxes_;
+    std::vector<float> cone_rows_;
+    std::size_t cone_stride_ = 0;
     std::vector<std::uint8_t> drawn_;
+    View view_;
+    glm::dvec3 eye_world_{0.0};
+    double reveal_margin_m_ = 0.0;
     ClusterCounters counters_;
 };
 

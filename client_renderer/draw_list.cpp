@@ -69,6 +69,7 @@ void DrawList::build(std::span<const std::uint32_t> visible, const Camera& camer
     ranges_.clear();
     triangles_drawn_ = 0;
     states_.clear();
+    if (clusters.clusters != nullptr) clusters.clusters->begin(clusters.view);
     if (!order_.grouped) return append_by_distance(camera, batches, clusters);
     for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches, clusters);
 }
@@ -121,8 +122,7 @@ void DrawList::append_part(const MeshPart& part, const VisibleRange& visible, co
     }
     for (std::uint32_t i = visible.first; i < visible.first + visible.count; ++i) {
         runs_.clear();
-        clusters.clusters->append_runs(part.clusters, placed_[placed_of_packed_[i]].world_from_object, clusters.view,
-                                       runs_);
+        clusters.clusters->append_runs(part.clusters, placed_[placed_of_packed_[i]].world_from_object, runs_);
         for (const IndexRun& run : runs_) {
             commands_.push_back({run.count, 1, part.first_index + run.first, part.base_vertex, i});
             triangles_drawn_ += run.count / 3;

@@ -68,8 +68,6 @@ public:
     [[nodiscard]] const std::vector<PackedInstance>& instances() const { return packed_; }
     [[nodiscard]] const std::vector<DrawCommand>& commands() const { return commands_; }
     [[nodiscard]] const std::vector<DrawRange>& ranges() const { return ranges_; }
-    /// Changes of state from one range to the next, the first included.
-    [[nodiscard]] std::size_t state_changes() const { return ranges_.size(); }
     /// Not grouped: the states of the draws as they came to the sorting buffer.
     [[nodiscard]] const std::vector<std::uint32_t>& arriving_states() const { return states_; }
     [[nodiscard]] std::uint64_t objects_drawn() const { return packed_.size(); }

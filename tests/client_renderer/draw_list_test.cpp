@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <glm/gtc/matrix_transform.hpp>
+#include <set>
 
 #include "client_renderer/culling.h"
 #include "tests/client_renderer/hand_made_scenes.h"
@@ -110,6 +111,34 @@ TEST_F(DrawListTest, MoversAreTestedWhereTheyAre) {
     culling.move();
     list.build(culling.visible(camera), camera, batches_);
     EXPECT_EQ(list.objects_drawn(), 3U);
+}
+
+TEST_F(DrawListTest, ABufferSortsByStateWhatComesByDistance) {
+    scene::SceneState state{scene_};
+    state.set_time(0.0);
+    const PlacedInstances placed{scene_, state};
+    const Camera camera = test::plain_camera({64, 64});
+    Culling culling{placed, {.skip = false}};
+    const std::vector<std::uint32_t> visible = culling.visible(camera);
+    DrawList grouped{placed};
+    grouped.build(visible, camera, batches_);
+    DrawList as_they_come{placed, {false, SortingStrategy::none, 1}};
+    as_they_come.build(visible, camera, batches_);
+    DrawList sorted{placed, {false, SortingStrategy::lru, 64}};
+    sorted.build(visible, camera, batches_);
+    EXPECT_EQ(as_they_come.triangles_drawn(), grouped.triangles_drawn());
+    EXPECT_EQ(sorted.triangles_drawn(), grouped.triangles_drawn());
+    EXPECT_EQ(as_they_come.arriving_states(), sorted.arriving_states());
+    EXPECT_EQ(sorted.commands().size(), as_they_come.commands().size());
+    const std::set<std::uint32_t> states(sorted.arriving_states().begin(), sorted.arriving_states().end());
+    EXPECT_EQ(sorted.ranges().size(), states.size()) << "a buffer for all of them sorts all";
+    EXPECT_GE(as_they_come.ranges().size(), states.size());
+    std::size_t next = 0;
+    for (const DrawRange& range : sorted.ranges()) {
+        EXPECT_EQ(range.first_command, next);
+        next += range.command_count;
+    }
+    EXPECT_EQ(next, sorted.commands().size());
 }
 
 }  // namespace

@@ -18,11 +18,11 @@ enum class LinearAlpha : std::uint8_t { none, kept };
 /// A picture in linear light, 15 bits per channel in 16. Channels lie apart, so that one vector holds a stretch of one
 /// channel; the three rows of one image row follow each other, and a fourth with alpha where that is wanted. Beyond the
 /// last column and the last row lie zeros, so that a read of kSpareColumns pixels from any pixel on, in its row and the
-/// two below, stays inside.
+/// kSpareRows below, stays inside.
 class LinearImage {
 public:
     static constexpr std::ptrdiff_t kSpareColumns = 32;  ///< 16-bit lanes of the widest vector
-    static constexpr std::ptrdiff_t kSpareRows = 2;
+    static constexpr std::ptrdiff_t kSpareRows = 4;
 
     LinearImage() = default;
     /// Any thread. Alpha is kept as it is, in steps of kLinearOne / 255.

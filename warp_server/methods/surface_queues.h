@@ -126,6 +126,11 @@ public:
     /// centre of its first one.
     template <class M>
     HWY_INLINE void push(M wanted, hn::VFromD<DI> pixel, VF depth, VF x, VF y) {
+        // What flush() will touch is on its way by then: waiting for it was half of the time.
+        const auto near_first = static_cast<std::size_t>(hn::GetLane(pixel));
+        __builtin_prefetch(depths_ + near_first, 1);
+        __builtin_prefetch(colours_ + near_first, 1);
+        reader_.prefetch(hn::GetLane(x), hn::GetLane(y));
         append_lanes(DI{}, pixel, wanted, pixel_ + count_);
         append_lanes(DF{}, depth, wanted, depth_ + count_);
         append_lanes(DF{}, x, wanted, x_ + count_);
@@ -142,7 +147,7 @@ public:
         HWY_ALIGN std::uint32_t colours[kMaxLanes];
         for (std::size_t i = 0; i < count_; i += lanes) {
             const Taps taps = reader_.taps_of(hn::Load(DF{}, x_ + i), hn::Load(DF{}, y_ + i));
-            hn::Store(encoder_.encoded(reader_.read(taps)), DU{}, colours);
+            hn::Store(encoder_.encoded(read(taps)), DU{}, colours);
             const std::size_t end = std::min(lanes, count_ - i);
             for (std::size_t lane = 0; lane < end; ++lane) {
                 const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
@@ -157,6 +162,15 @@ public:
     }
 
 private:
+    // Pixels that follow each other mostly come from one tile or one row of cells.
+    [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
+#if LW_HAS_WIDE_LOOKUPS
+        LinearColours near;
+        if (reader_.read_near(taps, hn::GetLane(taps.x), hn::GetLane(taps.y), near)) return near;
+#endif
+        return reader_.read(taps);
+    }
+
     // Grows with the depth, then with the colour. Depths are >= 0, or negative where nothing is shown; as whole numbers
     // they are in the same order, but for -0.
     [[nodiscard]] static HWY_INLINE std::int64_t key_of(float depth, std::uint32_t colour) {

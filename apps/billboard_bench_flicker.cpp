@@ -46,29 +46,6 @@ FlickerPoint point_of(const BillboardSettings& settings) {
     return point;
 }
 
-/// Billboards made here are looked at from there, where their updates arrive a few per frame: nothing but them changes
-/// the picture.
-Status measure_pops(const BillboardStage& stage, const BillboardSettings& settings, int frames,
-                    std::vector<FlickerPoint>& into) {
-    const Camera here = stage.camera_at(14.0, kSize_px);
-    Camera there = here;
-    there.world_from_eye.position_m.x += 3.0;
-    auto trial = stage.trial("", settings);
-    if (!trial.ok()) return trial.error();
-    // Twice the frames that creating takes; the first look from there redraws what a budget may not leave.
-    for (int k = 0; k < 8; ++k) (void)trial->draw(here, 0.0, kSamples);
-    FlickerPoint point = point_of(settings);
-    FlickerMeter meter{trial->draw(there, 0.0, kSamples)};
-    const ColourImage still{kSize_px};
-    for (int k = 0; k < frames; ++k) {
-        meter.add(trial->draw(there, 0.0, kSamples), still, still);
-        point.updates += trial->frames().back().counters.updated;
-    }
-    meter.write(point);
-    into.push_back(point);
-    return Done{};
-}
-
 Status measure_moving(const BillboardStage& stage, const BillboardSettings& settings,
                       const std::vector<Camera>& cameras, const std::vector<ColourImage>& meshes,
                       std::vector<FlickerPoint>& into) {
@@ -96,11 +73,7 @@ Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& 
         for (const int fade_frames : {0, kFadeFrames}) {
             BillboardSettings settings = by_error(mode, mode == BillboardMode::flat ? 0.4 : 0.8);
             settings.fade_frames = fade_frames;
-            Status status = measure_moving(stage, settings, cameras, *meshes, bench.moving);
-            if (!status.ok()) return status;
-            // Caps at which the step makes the nearer half due, but not by more than a budget may leave for later.
-            settings.budget_ms = 20.0;
-            status = measure_pops(stage, settings, quick ? 12 : 32, bench.pops);
+            const Status status = measure_moving(stage, settings, cameras, *meshes, bench.flicker);
             if (!status.ok()) return status;
         }
     }

@@ -248,8 +248,7 @@ Rows figure_rows(const BillboardFigures& f) {
             {"SSIM, worst", fmt::format("{:.4f}", f.ssim_min)},
             {"frames in which warped beats flat", fmt::format("{:.1f} %", 100.0 * f.warped_better)},
             {"redraws, warped to flat at equal FLIP", short_number(f.redraw_ratio)},
-            {"flicker of updates, with fade to without", short_number(f.flicker_ratio)},
-            {"the same while the eye moves", short_number(f.moving_flicker_ratio)},
+            {"flicker, with fade to without", short_number(f.flicker_ratio)},
             {"worst update to median, with a budget", short_number(f.worst_to_median)}};
 }
 
@@ -332,8 +331,7 @@ void add_tables(const BillboardBench& bench, const BillboardFigures& figures, Be
         {"Redraws for the same error", redraw_rows(bench)},
         {"Share of the scene within which objects stay meshes", sweep_rows(bench.thresholds, "share")},
         {"Time for updates", sweep_rows(bench.budgets, "budget, ms")},
-        {"Flicker of updates, the eye stands still", flicker_rows(bench.pops)},
-        {"Flicker while the eye moves", flicker_rows(bench.moving)},
+        {"Flicker while the eye moves", flicker_rows(bench.flicker)},
         {"A still camera: layouts", still_rows(bench.still)},
         {"Layouts, 3 m beside where the billboards were drawn", still_rows(bench.layouts)},
         {"Ways to make quads", still_rows(bench.expansions)},
@@ -406,8 +404,7 @@ BillboardFigures figures_of(const BillboardBench& bench) {
     for (const RedrawShare& share : redraw_shares(bench)) {
         if (share.flat.criterion == "error" && share.flat.value == kDefaultCap_px) figures.redraw_ratio = share.share();
     }
-    figures.flicker_ratio = flicker_ratio(bench.pops, "warped");
-    figures.moving_flicker_ratio = flicker_ratio(bench.moving, "warped");
+    figures.flicker_ratio = flicker_ratio(bench.flicker, "warped");
     if (!bench.budgets.empty()) figures.worst_to_median = bench.budgets.back().worst_to_median;
     return figures;
 }
@@ -428,7 +425,6 @@ BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene) {
     report.set("billboards/warped_better", figures.warped_better);
     report.set("billboards/redraw_ratio", figures.redraw_ratio);
     report.set("billboards/flicker_ratio", figures.flicker_ratio);
-    report.set("billboards/moving_flicker_ratio", figures.moving_flicker_ratio);
     report.set("billboards/worst_to_median", figures.worst_to_median);
     report.set("billboards/bytes_per_pixel", bytes_per_texel(AtlasFormat::packed));
     for (std::size_t level = 0; level < kBillboardDimensions.size(); ++level) {

@@ -17,10 +17,9 @@ struct BillboardFigures {
     std::size_t eligible = 0;
     double ssim_mean = 1.0;
     double ssim_min = 1.0;
-    double warped_better = 0.0;  ///< share of the frames in which warped quads beat flat ones, updated as often
-    double redraw_ratio = 0.0;   ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
-    double flicker_ratio = 0.0;  ///< with cross-fade to without, warped, of updates alone
-    double moving_flicker_ratio = 0.0;  ///< the same while the eye moves
+    double warped_better = 0.0;    ///< share of the frames in which warped quads beat flat ones, updated as often
+    double redraw_ratio = 0.0;     ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
+    double flicker_ratio = 0.0;    ///< with cross-fade to without, warped
     double worst_to_median = 0.0;  ///< the median frame with the costliest updates to the median frame, with a budget
 };
 

@@ -78,8 +78,7 @@ struct BillboardBench {
     std::vector<SweepPoint> thresholds;  ///< value: share of the scene's diagonal
     std::vector<SweepPoint> budgets;     ///< value: milliseconds for updates in a frame; 0: no limit
     SweepPoint meshes;                   ///< what the sweeps' meshes are like to antialiased ones
-    std::vector<FlickerPoint> pops;      ///< the eye stands still while updates arrive
-    std::vector<FlickerPoint> moving;    ///< it moves
+    std::vector<FlickerPoint> flicker;   ///< of updates while the eye moves
     std::vector<StillPoint> still;       ///< by layout
     std::vector<StillPoint> layouts;     ///< by layout, after a step to the side
     std::vector<StillPoint> expansions;  ///< by way to make quads
@@ -91,7 +90,7 @@ struct BillboardBench {
 /// `scene` is finished; a GL context is current. Progress on standard error unless quiet.
 [[nodiscard]] Result<BillboardBench> run_billboard_bench(const scene::Scene& scene, const Options& options);
 
-/// Fills pops and moving: what cross-fades are worth (billboard_bench_flicker.cpp).
+/// Fills flicker: what cross-fades are worth (billboard_bench_flicker.cpp).
 [[nodiscard]] Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& bench);
 
 /// Fills still, layouts, expansions, groups, depthless and motions (billboard_bench_still.cpp).

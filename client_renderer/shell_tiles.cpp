@@ -16,6 +16,10 @@ std::array<glm::dquat, 6> face_orientations() {
             glm::angleAxis(quarter, y),     glm::angleAxis(quarter, x),  glm::angleAxis(-quarter, x)};
 }
 
+// Over its neighbours, which may have been drawn from elsewhere: with one pixel a turn of 360 degrees a second left a
+// hole of one pixel where four tiles met.
+constexpr int kRimPx = 2;
+
 ShellTiles::Probes probes_of(const Camera& camera) {
     ShellTiles::Probes probes;
     const FovTangents& fov = camera.fov;
@@ -38,7 +42,7 @@ ShellTiles::ShellTiles(const Camera& display, double density, int tiles_per_side
     const double px_per_tan = display.size_px.y / (display.fov.up - display.fov.down);
     const double side_tan = 2.0 / tiles_per_side;
     const int side_px = std::max(static_cast<int>(std::ceil(density * px_per_tan * side_tan - 1e-9)), 1);
-    const double rim_tan = side_tan / side_px;
+    const double rim_tan = kRimPx * side_tan / side_px;
     display_pixels_ = px_per_tan * px_per_tan * side_tan * side_tan;
     for (const glm::dquat& orientation : face_orientations()) {
         for (int tile = 0; tile < tiles_per_side * tiles_per_side; ++tile) {
@@ -47,7 +51,7 @@ ShellTiles::ShellTiles(const Camera& display, double density, int tiles_per_side
             Camera camera;
             camera.world_from_eye.orientation = orientation;
             camera.near_m = display.near_m;
-            camera.size_px = glm::ivec2{side_px + 2};
+            camera.size_px = glm::ivec2{side_px + 2 * kRimPx};
             camera.fov = {left - rim_tan, left + side_tan + rim_tan, up - side_tan - rim_tan, up + rim_tan};
             cameras_.push_back(camera);
             probes_.push_back(probes_of(camera));

@@ -23,7 +23,7 @@ public:
     ShellTiles(const Camera& display, double density, int tiles_per_side);
 
     [[nodiscard]] int count() const { return static_cast<int>(cameras_.size()); }
-    /// At `eye_world`. Each has a rim of a pixel over its neighbours, so that tiles drawn from one place join.
+    /// At `eye_world`. Each has a rim of two pixels over its neighbours, so that tiles drawn from one place join.
     [[nodiscard]] Camera camera(int tile, const glm::dvec3& eye_world) const;
     /// Unit directions in world space, spread over the tile.
     [[nodiscard]] const Probes& probes(int tile) const { return probes_[static_cast<std::size_t>(tile)]; }

@@ -77,9 +77,9 @@ TEST(ShellTiles, EveryDirectionIsOnATileAndTheProbesOfATileAreInIt) {
             EXPECT_TRUE(sees(tiles.camera(tile, {}), direction)) << tile;
         }
     }
-    // 32 pixels per tangent, a tangent of one per tile, a rim of one pixel.
-    EXPECT_EQ(tiles.camera(0, {}).size_px, glm::ivec2(34, 34));
-    EXPECT_NEAR(tiles.camera(0, {}).fov.right - tiles.camera(0, {}).fov.left, 34.0 / 32.0, 1e-12);
+    // 32 pixels per tangent, a tangent of one per tile, a rim of two pixels.
+    EXPECT_EQ(tiles.camera(0, {}).size_px, glm::ivec2(36, 36));
+    EXPECT_NEAR(tiles.camera(0, {}).fov.right - tiles.camera(0, {}).fov.left, 36.0 / 32.0, 1e-12);
     EXPECT_DOUBLE_EQ(tiles.display_pixels(), 1024.0);
 }
 

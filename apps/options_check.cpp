@@ -45,8 +45,10 @@ bool is_live(const Options& options) {
 Status check_together(const Options& options) {
     const Status autotune = check_autotune(options);
     if (!autotune) return autotune;
-    if (options.shells.on && options.stereo.on) {
-        return Error{"shells are drawn for one eye", "--shells --eyes stereo", "leave out one of them"};
+    if (options.shells.on && options.stereo.on && options.stereo.mode != StereoMode::one_render) {
+        return Error{"shells are drawn from between the eyes",
+                     fmt::format("--shells --stereo {}", name_of(options.stereo.mode)),
+                     "choose --stereo one-render, or leave out --shells"};
     }
     if (options.shells.on && options.billboards.mode != BillboardMode::off) {
         return Error{"shells draw far objects as they are", "--shells --billboards", "leave out one of them"};

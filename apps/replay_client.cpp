@@ -8,7 +8,6 @@
 #include "client_renderer/layer_statistics.h"
 #include "client_renderer/reveal_margin.h"
 #include "client_renderer/shell_budget.h"
-#include "warp_server/hole_attribution.h"
 
 namespace lw {
 
@@ -92,20 +91,25 @@ void ReplayClient::draw(std::uint64_t frame, const ReplayHead& head, SceneRender
 // Frames of shells depend on those before them.
 ShellMoment ReplayClient::moment_of(std::uint64_t frame, const ReplayHead& head) {
     const TimePoint begin = head.clock.sampled(frame);
+    View& view = views_.front();
     const auto head_at = [&](TimePoint time) { return head.client_predictor.predict(head.feed, begin, time); };
+    const auto view_at = [&](const PredictedPose& pose) {
+        return compose(pose.world_from_head, view.drawn.head_from_view);
+    };
     const PredictedPose middle = head_at(drawn_for(frame, head));
     ShellMoment moment;
     moment.now_s = seconds_of(begin);
     moment.scene_time_s = seconds_of(drawn_for(frame, head));
     moment.pose_sampled = middle.newest_sample;
-    moment.shown_from = head_at(head.clock.published(frame)).world_from_head;
-    moment.shown_middle = middle.world_from_head;
-    moment.shown_until = head_at(head.clock.end_of_life(frame)).world_from_head;
-    moment.source = camera_of(views_.front(), frame, head);
+    moment.shown_from = view_at(head_at(head.clock.published(frame)));
+    moment.shown_middle = view_at(middle);
+    moment.shown_until = view_at(head_at(head.clock.end_of_life(frame)));
+    moment.source = camera_of(view, frame, head);
     if (frame < main_view_model_ms_.size()) moment.main_view_ms = main_view_model_ms_[frame];
     moment.head_motion_m =
-        reveal_margin_m(options_.reveal_margin_m, head.client_predictor, head.feed, begin, moment.shown_middle,
-                        head.clock.published(frame), head.clock.end_of_life(frame));
+        view.drawn.eye_distance_m + reveal_margin_m(options_.reveal_margin_m, head.client_predictor, head.feed, begin,
+                                                    middle.world_from_head, head.clock.published(frame),
+                                                    head.clock.end_of_life(frame));
     return moment;
 }
 
@@ -125,7 +129,7 @@ void ReplayClient::learn_main_view(std::uint64_t frame, const ReplayHead& head, 
 }
 
 void ReplayClient::draw_shells(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer) {
-    if (!shells_) shells_ = std::make_unique<ReplayShells>(renderer, options_);
+    if (!shells_) shells_ = std::make_unique<ReplayShells>(renderer, views_.front().drawn.camera, options_);
     if (!options_.shells.budget_ms) learn_main_view(frame, head, renderer);
     const Stopwatch drawing;
     shells_->draw(frame, [&](std::uint64_t k) { return moment_of(k, head); });
@@ -134,12 +138,8 @@ void ReplayClient::draw_shells(std::uint64_t frame, const ReplayHead& head, Scen
     counters_.push_back(shells_->counters());
 }
 
-void ReplayClient::report(const DisplayFrame& shown, const Camera& target, TimePoint scanout) {
-    if (!shells_) return;
-    HoleFeedback feedback;
-    feedback.shown = scanout;
-    attribute_holes(shown, frame_, target, feedback);
-    shells_->report(std::move(feedback));
+void ReplayClient::report(HoleFeedback feedback) {
+    if (shells_) shells_->report(std::move(feedback));
 }
 
 // What the renderer's last picture is modelled to cost.

@@ -16,7 +16,6 @@
 #include "frame_link/drawn_view.h"
 #include "frame_link/prediction.h"
 #include "frame_link/rendered_frame.h"
-#include "warp_server/warp_method.h"
 
 namespace lw {
 
@@ -42,9 +41,11 @@ public:
     void draw(std::uint64_t frame, const ReplayHead& head, SceneRenderer& renderer,
               const std::function<void(std::span<const std::shared_ptr<Layer>>)>& prepare);
 
-    /// With shells: the server showed `shown` of frame(), scanned out at `scanout`. The client hears of its holes when
-    /// it begins its next frame after that.
-    void report(const DisplayFrame& shown, const Camera& target, TimePoint scanout);
+    /// Whether it hears of holes.
+    [[nodiscard]] bool draws_shells() const { return options_.shells.on; }
+    /// With shells: the server showed frame() with these holes. The client hears of them when it begins its next frame
+    /// after `feedback.shown`.
+    void report(HoleFeedback feedback);
 
     /// The frame drawn last; it has a layer for each view, with hidden layers two.
     [[nodiscard]] const RenderedFrame& frame() const { return frame_; }

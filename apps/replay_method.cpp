@@ -23,7 +23,7 @@ Result<ReplayMethod> ReplayMethod::create(const std::string& label, const Option
     return made;
 }
 
-void ReplayMethod::prepare(Layer& layer) const { mono_ ? mono_->prepare(layer) : stereo_->prepare(layer); }
+void ReplayMethod::prepare(Layer& layer) const { maker().prepare(layer); }
 
 void ReplayMethod::warp(const RenderedFrame& frame, const WarpTarget& target) {
     if (mono_) {
@@ -37,6 +37,14 @@ const FrameWarper& ReplayMethod::eye(std::size_t index) const {
     return mono_ ? *mono_ : stereo_->eye(static_cast<Eye>(index));
 }
 
-const WarpCounters& ReplayMethod::counters() const { return mono_ ? mono_->counters() : stereo_->counters(); }
+const PictureMaker& ReplayMethod::maker() const {
+    return mono_ ? static_cast<const PictureMaker&>(*mono_) : *stereo_;
+}
+
+const WarpCounters& ReplayMethod::counters() const { return maker().counters(); }
+
+void ReplayMethod::report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const {
+    maker().report_holes(frame, head, feedback);
+}
 
 }  // namespace lw

@@ -32,8 +32,12 @@ public:
     /// The picture of the last warp() for eye `index`, 0 where there is one eye.
     [[nodiscard]] const FrameWarper& eye(std::size_t index) const;
     [[nodiscard]] const WarpCounters& counters() const;
+    /// PictureMaker::report_holes() of the last warp().
+    void report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const;
 
 private:
+    [[nodiscard]] const PictureMaker& maker() const;
+
     std::string label_;
     std::optional<StereoMode> mode_;
     std::optional<FrameWarper> mono_;

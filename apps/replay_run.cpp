@@ -100,9 +100,11 @@ Status ReplayRun::find_client(std::size_t method, const Trace& trace) {
     if (known != client_modes_.end()) return Done{};
     Options drawn = options_;
     drawn.stereo.mode = mode.value_or(options_.stereo.mode);
+    // Shells are drawn from between the eyes; the other ways to make stereo are compared as they are.
+    drawn.shells.on = drawn.shells.on && (!rig_ || drawn.stereo.mode == StereoMode::one_render);
     Result<std::vector<DrawnView>> views = drawn_views_of(drawn, &trace);
     if (!views) return views.error();
-    clients_.emplace_back(options_, *std::move(views));
+    clients_.emplace_back(drawn, *std::move(views));
     client_modes_.push_back(mode);
     return Done{};
 }
@@ -179,7 +181,12 @@ void ReplayRun::show(std::size_t method, const Pose& predicted_head, const Pose&
     }
     if (method != 0) return;
     bad_depth_count_ += methods_[method].counters().bad_depth;
-    clients_[client_index_[method]].report(methods_[method].eye(0).display_frame(), target.camera, shown_at_);
+    ReplayClient& client = clients_[client_index_[method]];
+    if (!client.draws_shells()) return;
+    HoleFeedback feedback;
+    feedback.shown = shown_at_;
+    methods_[method].report_holes(client.frame(), target.camera, feedback);
+    client.report(std::move(feedback));
 }
 
 void ReplayRun::draw(std::uint64_t refresh) {

@@ -4,8 +4,8 @@
 
 namespace lw {
 
-ReplayShells::ReplayShells(SceneRenderer& renderer, const Options& options)
-    : renderer_{renderer}, display_{options.camera()}, source_{options.source}, settings_{options.shells} {
+ReplayShells::ReplayShells(SceneRenderer& renderer, const Camera& display, const Options& options)
+    : renderer_{renderer}, display_{display}, source_{options.source}, settings_{options.shells} {
     begin();
 }
 

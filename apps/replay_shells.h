@@ -18,7 +18,8 @@ class ReplayShells {
 public:
     using MomentOf = std::function<ShellMoment(std::uint64_t frame)>;
 
-    ReplayShells(SceneRenderer& renderer, const Options& options);
+    /// @param display  as ShellClient has it
+    ReplayShells(SceneRenderer& renderer, const Camera& display, const Options& options);
     ReplayShells(const ReplayShells&) = delete;
     ReplayShells& operator=(const ReplayShells&) = delete;
 

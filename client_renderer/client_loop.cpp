@@ -46,8 +46,9 @@ ClientLoop::ClientLoop(SceneRenderer& renderer, Clock& clock, const HeadPoseFeed
     const auto prepare_drawn = [this](const std::shared_ptr<Layer>& layer) {
         if (prepare_) prepare_(*layer);
     };
-    shells_ =
-        std::make_unique<ShellClient>(renderer_, settings_.camera, settings_.source, settings_.shells, prepare_drawn);
+    LW_CHECK(views_.size() == 1, fmt::format("shells with {} views", views_.size()));
+    shells_ = std::make_unique<ShellClient>(renderer_, views_.front().drawn.camera, settings_.source, settings_.shells,
+                                            prepare_drawn);
 }
 
 void ClientLoop::run() {
@@ -119,18 +120,21 @@ void ClientLoop::draw_and_publish_shells() {
     const TimePoint sampled = clock_.now();
     const TimePoint target = settings_.predict_source_pose ? middle_of_display_life(sampled) : sampled;
     const TimePoint shown_from = sampled + latency_;
+    View& view = views_.front();
     const auto head_at = [&](TimePoint time) { return predictor_->predict(head_, sampled, time); };
+    const auto view_at = [&](const PredictedPose& pose) {
+        return compose(pose.world_from_head, view.drawn.head_from_view);
+    };
     const PredictedPose middle = head_at(target);
     ShellMoment moment;
     moment.now_s = seconds_of(sampled);
     moment.scene_time_s = seconds_of(target);
     moment.pose_sampled = middle.newest_sample;
-    moment.shown_from = head_at(shown_from).world_from_head;
-    moment.shown_middle = middle.world_from_head;
-    moment.shown_until = head_at(shown_from + period_).world_from_head;
-    moment.source = views_.front().cameras.next(head_, sampled, latency_ + period_);
-    moment.head_motion_m = reveal_margin_m(settings_.reveal_margin_m, *predictor_, head_, sampled, moment.shown_middle,
-                                           shown_from, shown_from + period_);
+    moment.shown_from = view_at(head_at(shown_from));
+    moment.shown_middle = view_at(middle);
+    moment.shown_until = view_at(head_at(shown_from + period_));
+    moment.source = view.cameras.next(head_, sampled, latency_ + period_);
+    moment.head_motion_m = eye_motion_m(view, {sampled, target, middle});
     if (settings_.feedback != nullptr) shells_->take(settings_.feedback->take());
 
     auto frame = std::make_shared<RenderedFrame>();
@@ -144,8 +148,8 @@ void ClientLoop::draw_and_publish_shells() {
     }
     frame->index = records_.size() + 1;
     frame->times.published = clock_.now();
-    const Layer& view = *frame->layers.front();
-    const ClientFrameRecord record{frame->index, frame->times, shells_->counters(), view.camera, view.scene_time_s};
+    const Layer& drawn = *frame->layers.front();
+    const ClientFrameRecord record{frame->index, frame->times, shells_->counters(), drawn.camera, drawn.scene_time_s};
     exchange_.publish(std::move(frame));
     learn_timing(sampled, record.times.published);
     records_.push_back(record);

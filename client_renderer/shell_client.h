@@ -30,11 +30,11 @@ struct ShellMoment {
     double now_s = 0.0;         ///< of the run's clock, when drawing begins
     double scene_time_s = 0.0;  ///< the movers are drawn at
     TimePoint pose_sampled;     ///< stamp of the newest head sample
-    Pose shown_from;            ///< predicted heads: at the beginning, in the middle and at the end of the frame's
-    Pose shown_middle;          ///< life on the display
+    Pose shown_from;            ///< the eye, or the middle of two, as the head is predicted: at the beginning, in
+    Pose shown_middle;          ///< the middle and at the end of the frame's life on the display
     Pose shown_until;
     Camera source;               ///< what one main view would be drawn with: size, field of view, near plane
-    double head_motion_m = 0.0;  ///< reveal_margin_m()
+    double head_motion_m = 0.0;  ///< reveal_margin_m(), and from the middle of two eyes to the farther one
     /// What drawing everything with `source` would cost, for a budget of `auto`; where it is not known, what it cost at
     /// the start counts.
     std::optional<double> main_view_ms = std::nullopt;
@@ -63,7 +63,9 @@ struct ShellFrameRecord {
 /// Belongs to the renderer's thread. Equal calls in equal order give equal frames where costs are modelled.
 class ShellClient {
 public:
-    /// `prepare` runs on every layer before it is first published; may be empty.
+    /// @param display  what is seen at once: of two eyes the view that holds what both see (DrawnView::camera). Its
+    ///                 pose is not looked at
+    /// @param prepare  runs on every layer before it is first published; may be empty
     ShellClient(SceneRenderer& renderer, const Camera& display, const SourceSettings& source,
                 const ShellSettings& settings, std::function<void(const std::shared_ptr<Layer>&)> prepare);
 

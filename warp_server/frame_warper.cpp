@@ -6,6 +6,7 @@
 #include "core/camera_check.h"
 #include "core/check.h"
 #include "core/placement_check.h"
+#include "warp_server/hole_attribution.h"
 #include "warp_server/methods/registry.h"
 #include "warp_server/part_cover.h"
 
@@ -70,6 +71,10 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
     }
     remember(frame, usable);
     return display_frame_;
+}
+
+void FrameWarper::report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const {
+    attribute_holes(display_frame_, frame, head, feedback);
 }
 
 bool FrameWarper::is_made_of(const RenderedFrame& frame, const WarpTarget& target) const {

@@ -49,6 +49,8 @@ public:
         return display_frame_;
     }
 
+    void report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const override;
+
     /// Shows which shell each pixel comes from, from the next picture on.
     void set_false_colours(bool on) {
         if (on != composition_.false_colours()) made_.layers.clear();

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "frame_link/hole_feedback.h"
 #include "frame_link/rendered_frame.h"
 #include "warp_server/warp_method.h"
 
@@ -42,6 +43,10 @@ public:
     /// The same, to write over it what belongs to the display and not to the scene (photon codes, an overlay). It is
     /// not shown again after that.
     [[nodiscard]] virtual DisplayFrame& display_frame_to_write_over() = 0;
+
+    /// Adds what the last warp(), of this frame for this head, did not reach (attribute_holes()): of each eye one
+    /// display frame.
+    virtual void report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const = 0;
 };
 
 }  // namespace lw

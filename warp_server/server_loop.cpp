@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "warp_server/hole_attribution.h"
 #include "warp_server/photon_code.h"
 
 namespace lw {
@@ -122,7 +121,7 @@ void ServerLoop::present(const Refresh& slot) {
 void ServerLoop::report_holes(const RenderedFrame& frame, const Camera& target, const Refresh& slot) {
     HoleFeedback feedback;
     feedback.shown = slot.scanout_begin;
-    attribute_holes(parts_.warper.display_frame(), frame, target, feedback);
+    parts_.warper.report_holes(frame, target, feedback);
     settings_.feedback->offer(feedback);
 }
 

@@ -69,4 +69,10 @@ void StereoWarper::warp_eye(Eye eye) {
     warpers_[static_cast<std::size_t>(eye)].warp(*frame_, target);
 }
 
+void StereoWarper::report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const {
+    for (const Eye which : kEyes) {
+        eye(which).report_holes(frame, eye_camera(head, settings_.rig.eye(which), head.world_from_eye), feedback);
+    }
+}
+
 }  // namespace lw

@@ -54,6 +54,8 @@ public:
     [[nodiscard]] const DisplayFrame& display_frame() const override { return packed_; }
     [[nodiscard]] DisplayFrame& display_frame_to_write_over() override { return packed_; }
 
+    void report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const override;
+
     /// Any thread: how the next pictures are packed. Layouts of another size than the display's are for presenters that
     /// take any size.
     void set_layout(EyeLayout layout) { layout_.store(layout, std::memory_order_relaxed); }

@@ -77,6 +77,20 @@ TEST_F(StereoCommands, AStillHeadSeesTwoRendersAsTheyAre) {
     EXPECT_LT(mean_of(one_render, "rivalry_fraction"), mean_of(scanline, "rivalry_fraction"));
 }
 
+TEST_F(StereoCommands, ShellsShowBothEyesWhatIsPastTheViewsEdge) {
+    const auto folder = fresh_folder("stereo-shells");
+    const ProgramRun run =
+        run_stereo(folder, {"look-around", "--trace-start", "1", "--shells", "auto", "--baseline", "two-renders"});
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const Json report = report_of(folder);
+    const Json& two = report.at("baselines").at("two-renders").at("stereo");
+    for (const char* eye : {"left", "right"}) {
+        // The head turns by degrees while a frame is shown; a picture of one pose has nothing there.
+        EXPECT_GT(mean_of(two.at(eye).at("error"), "hole_fraction"), 0.03) << eye;
+        EXPECT_LT(mean_of(report.at("stereo").at(eye).at("error"), "hole_fraction"), 0.005) << eye;
+    }
+}
+
 TEST_F(StereoCommands, PicturesAreWrittenAsTheyAreAskedFor) {
     const auto folder = fresh_folder("stereo-layout");
     ASSERT_EQ(run_stereo(folder, {"still", "--save-frames", "--stereo-output", "top-bottom"}).exit_code, 0);

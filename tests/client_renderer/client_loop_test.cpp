@@ -138,6 +138,29 @@ TEST_F(ClientLoopTest, ViewsOfBothEyesAreDrawnFromOneHeadPose) {
     EXPECT_EQ(left.scene_time_s, right.scene_time_s);
 }
 
+TEST_F(ClientLoopTest, ShellsForTwoEyesAreDrawnFromBetweenThem) {
+    Camera display;
+    display.size_px = {8, 4};
+    // Eyes in front of the head's origin: what lies between them does too.
+    StereoRig rig = mirrored_rig(0.06, FovTangents{});
+    for (EyeView& eye : rig.eyes) eye.head_from_eye.position_m.z = -0.1;
+    ClientSettings settings;
+    settings.views = *stereo_views(display, rig, StereoMode::one_render);
+    settings.shells.on = true;
+    settings.shells.shells = 2;
+    settings.shells.tiles_per_side = 1;
+    auto loop = make(settings, "none");
+    loop->draw_and_publish();
+    const RenderedFrame* frame = exchange_.latest();
+    ASSERT_NE(frame, nullptr);
+    const Camera& view = frame->layers.front()->camera;
+    EXPECT_FALSE(frame->layers.front()->for_eye) << "both eyes look at it";
+    EXPECT_NEAR(view.world_from_eye.position_m.z, -0.1, 1e-12);
+    const FovTangents& seen = settings.views.front().camera.fov;
+    EXPECT_LE(view.fov.left, seen.left);
+    EXPECT_GE(view.fov.right, seen.right);
+}
+
 TEST_F(ClientLoopTest, DrawsForTheMiddleOfTheFramesDisplayLife) {
     auto loop = make({});
     for (int i = 0; i < 12; ++i) loop->draw_and_publish();

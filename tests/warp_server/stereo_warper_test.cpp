@@ -7,6 +7,7 @@
 #include "tests/warp_server/analytic_scene.h"
 #include "tests/warp_server/image_assertions.h"
 #include "tests/warp_server/synthetic_layers.h"
+#include "warp_server/hole_attribution.h"
 
 namespace lw::test {
 namespace {
@@ -82,6 +83,24 @@ TEST(StereoWarper, BothEyesOnTheirOwnThreadsShowTheSame) {
     const auto movers = scene.movers(0.1);
     const ColourImage expected = one_by_one->warp(frame, {now, movers}).colour;
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(at_once->warp(frame, {now, movers}).colour == expected);
+}
+
+TEST(StereoWarper, ReportsTheHolesOfEachEyeWhereThatEyeLooks) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera head = street_camera(kSize_px);
+    const auto warper = warper_for(StereoMode::one_render);
+    const RenderedFrame frame = drawn(scene, StereoMode::one_render, head, *warper);
+    const Camera turned = moved(head, {0.0, 0.0, 0.0}, 20.0);
+    const auto movers = scene.movers(0.0);
+    warper->warp_eyes(frame, {turned, movers});
+    HoleFeedback both;
+    warper->report_holes(frame, turned, both);
+    HoleFeedback expected;
+    for (const Eye eye : kEyes) {
+        attribute_holes(warper->eye(eye).display_frame(), frame, eye_of(turned, eye), expected);
+    }
+    EXPECT_EQ(both.display_frames, 2U);
+    EXPECT_EQ(both.holes_px, expected.holes_px);
 }
 
 TEST(StereoWarper, PacksBothEyes) {

@@ -80,7 +80,7 @@ TEST_F(StereoCommands, AStillHeadSeesTwoRendersAsTheyAre) {
 TEST_F(StereoCommands, ShellsShowBothEyesWhatIsPastTheViewsEdge) {
     const auto folder = fresh_folder("stereo-shells");
     const ProgramRun run =
-        run_stereo(folder, {"look-around", "--trace-start", "1", "--shells", "auto", "--baseline", "two-renders"});
+        run_stereo(folder, {"look-around", "--trace-start", "1.2", "--shells", "2", "--baseline", "two-renders"});
     ASSERT_EQ(run.exit_code, 0) << run.err;
     const Json report = report_of(folder);
     const Json& two = report.at("baselines").at("two-renders").at("stereo");

@@ -56,25 +56,29 @@ private:
     }
 
     void draw(const PatchInput& input) {
-        draw_list(input, input.prepared->blocks);
-        draw_list(input, input.prepared->patches);
-        draw_tile_list(input);
-        draw_list(input, input.prepared->edges);
+        SurfaceRegion begin;
+        for (const SurfaceRegion& end : input.prepared->regions) {
+            draw_list(input, input.prepared->blocks, {begin.blocks, end.blocks});
+            draw_list(input, input.prepared->patches, {begin.patches, end.patches});
+            draw_tile_list(input, {begin.tiles, end.tiles});
+            draw_list(input, input.prepared->edges, {begin.edges, end.edges});
+            begin = end;
+        }
     }
 
     // Patches that reach behind the target eye are cut until their parts are before it, or are single cells.
-    void draw_list(const PatchInput& input, const PatchList& list) {
+    void draw_list(const PatchInput& input, const PatchList& list, ListRange range) {
         behind_.clear();
-        draw_patches(input, list, canvas_, behind_);
+        draw_patches(input, list, range, canvas_, behind_);
         if (behind_.empty()) return;
         parts_.clear();
         for (const std::uint32_t index : behind_) split_patch(list, index, parts_);
         draw_parts(input);
     }
 
-    void draw_tile_list(const PatchInput& input) {
+    void draw_tile_list(const PatchInput& input, ListRange range) {
         behind_.clear();
-        draw_tiles(input, canvas_, behind_);
+        draw_tiles(input, range, canvas_, behind_);
         if (behind_.empty()) return;
         parts_.clear();
         edge_parts_.clear();
@@ -87,7 +91,7 @@ private:
     void draw_parts(const PatchInput& input) {
         while (parts_.size() > 0) {
             behind_.clear();
-            draw_patches(input, parts_, canvas_, behind_);
+            draw_patches(input, parts_, {0, parts_.size()}, canvas_, behind_);
             smaller_parts_.clear();
             for (const std::uint32_t index : behind_) split_patch(parts_, index, smaller_parts_);
             std::swap(parts_, smaller_parts_);

@@ -22,6 +22,10 @@ constexpr int kLargestPatch = 64;
 // Where looking for planes starts: most blocks of this size are one plane in man-made scenes.
 constexpr int kFirstBlock = kTileSize;
 
+// Of the largest patches side by side: a region whose source and target are together 220 KiB.
+constexpr int kRegionBlocks = 4;
+constexpr std::size_t kMostLanes = 16;  // floats in the widest vector
+
 bool depths_agree(float depth, float expected) { return std::abs(depth - expected) <= kPlaneDepthPart * depth; }
 
 // Cuts the image into the largest blocks that are planes, and into cells where surfaces meet.
@@ -39,12 +43,23 @@ public:
                 } else {
                     add_strip();
                 }
+                if ((x / kLargestPatch + 1) % kRegionBlocks == 0) end_region();
             }
             add_strip();
+            end_region();
         }
+        out_->regions.push_back(
+            {out_->blocks.size(), out_->patches.size(), out_->tiles.surfaces.size(), out_->edges.size()});
     }
 
 private:
+    // Whole vectors, so that none of a list is drawn in parts.
+    void end_region() {
+        const auto whole = [](std::size_t count) { return count / kMostLanes * kMostLanes; };
+        out_->regions.push_back({whole(out_->blocks.size()), whole(out_->patches.size()),
+                                 whole(out_->tiles.surfaces.size()), whole(out_->edges.size())});
+    }
+
     // True when the whole block is one plane, which the caller must add; else everything in it has been added.
     bool merge_block(int x, int y, int size, BlockPlane& plane) {
         if (size <= kFirstBlock) return plane_or_parts(x, y, size, plane);

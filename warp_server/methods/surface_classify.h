@@ -51,12 +51,22 @@ struct SurfaceTiles {
     std::vector<float> edge_bottom;
 };
 
+/// Where pieces that lie together in the source end in each list. What is drawn region by region finds the source, and
+/// the target it lands on, in the processor's cache.
+struct SurfaceRegion {
+    std::size_t blocks = 0;
+    std::size_t patches = 0;
+    std::size_t tiles = 0;
+    std::size_t edges = 0;
+};
+
 struct PreparedSurface final : PreparedLayer {
     glm::ivec2 size_px{0};
     PatchList blocks;    ///< large patches; they and the small ones cover their target pixels wholly
     PatchList patches;   ///< small ones: where surfaces are curved, and around edges
     SurfaceTiles tiles;  ///< edges between planes, and what lies around them
     PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
+    std::vector<SurfaceRegion> regions;  ///< in the order of the lists: each begins where the one before ends
     LinearImage linear;              ///< with the pixels' shares as alpha, where they are known
     std::vector<IdCount> id_counts;  ///< by ascending id
     std::vector<float> cost_until;   ///< estimated cost of drawing all patches before each source row, and of all

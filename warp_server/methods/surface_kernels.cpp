@@ -83,7 +83,7 @@ public:
           skips_{canvas.skips()},
           depths_{canvas.frame().depth.pixels().data()} {}
 
-    void paint_patches(const PatchList& list) {
+    void paint_patches(const PatchList& list, ListRange range) {
         const auto paint = [&](std::size_t first, std::uint32_t bits, const PlacedPatches& placed, auto d) {
             if constexpr (std::is_same_v<decltype(d), DF>) {
                 const std::uint32_t small = small_boxes(bits, placed);
@@ -99,12 +99,12 @@ public:
                 }
             }
         };
-        place_all(list, paint);
+        place_all(list, range, paint);
         queue_.flush();
         fragments_.flush();
     }
 
-    void paint_tiles(const SurfaceTiles& tiles) {
+    void paint_tiles(const SurfaceTiles& tiles, ListRange range) {
         const auto paint = [&](std::size_t first, std::uint32_t bits, const PlacedPatches& placed, auto) {
             for (; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
@@ -115,7 +115,7 @@ public:
                 }
             }
         };
-        place_all(tiles.surfaces, paint);
+        place_all(tiles.surfaces, range, paint);
         queue_.flush();
         fragments_.flush();
     }
@@ -123,12 +123,12 @@ public:
 private:
     // As many patches at once as there are lanes; `paint` gets those that have pixels here, object by object.
     template <class Paint>
-    HWY_INLINE void place_all(const PatchList& list, const Paint& paint) {
+    HWY_INLINE void place_all(const PatchList& list, ListRange range, const Paint& paint) {
         const hn::CappedTag<float, 1> d1;
         const std::size_t lanes = hn::Lanes(DF{});
-        std::size_t i = 0;
-        for (; i + lanes <= list.size(); i += lanes) place_some(DF{}, list, i, paint);
-        for (; i < list.size(); ++i) place_some(d1, list, i, paint);
+        std::size_t i = range.begin;
+        for (; i + lanes <= range.end; i += lanes) place_some(DF{}, list, i, paint);
+        for (; i < range.end; ++i) place_some(d1, list, i, paint);
     }
 
     template <class D, class Paint>
@@ -409,13 +409,14 @@ private:
     std::int32_t share_trust_ = 0;  // of the object whose patches are painted
 };
 
-void draw_patches_here(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
+void draw_patches_here(const PatchInput& input, const PatchList& list, ListRange range, SurfaceCanvas& canvas,
                        std::vector<std::uint32_t>& behind) {
-    Painter{input, canvas, behind}.paint_patches(list);
+    Painter{input, canvas, behind}.paint_patches(list, range);
 }
 
-void draw_tiles_here(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
-    Painter{input, canvas, behind}.paint_tiles(input.prepared->tiles);
+void draw_tiles_here(const PatchInput& input, ListRange range, SurfaceCanvas& canvas,
+                     std::vector<std::uint32_t>& behind) {
+    Painter{input, canvas, behind}.paint_tiles(input.prepared->tiles, range);
 }
 
 std::size_t count_below_here(const float* depths, std::size_t count, float limit) {
@@ -454,13 +455,13 @@ HWY_EXPORT(draw_tiles_here);
 HWY_EXPORT(mark_coverage_here);
 HWY_EXPORT(count_below_here);
 
-void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
+void draw_patches(const PatchInput& input, const PatchList& list, ListRange range, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind) {
-    if (list.size() > 0) HWY_DYNAMIC_DISPATCH(draw_patches_here)(input, list, canvas, behind);
+    if (range.begin < range.end) HWY_DYNAMIC_DISPATCH(draw_patches_here)(input, list, range, canvas, behind);
 }
 
-void draw_tiles(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
-    if (input.prepared->tiles.surfaces.size() > 0) HWY_DYNAMIC_DISPATCH(draw_tiles_here)(input, canvas, behind);
+void draw_tiles(const PatchInput& input, ListRange range, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
+    if (range.begin < range.end) HWY_DYNAMIC_DISPATCH(draw_tiles_here)(input, range, canvas, behind);
 }
 
 std::size_t count_below(const float* depths, std::size_t count, float limit) {

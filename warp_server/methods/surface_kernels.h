@@ -13,13 +13,19 @@ struct PatchInput {
     const ObjectMatrices* matrices = nullptr;
 };
 
-/// Draws `list` where it is nearer than what the canvas shows: whole patches as opaque pixels, edge cells as fragments.
+/// Entries [begin, end) of a list.
+struct ListRange {
+    std::size_t begin = 0;
+    std::size_t end = 0;
+};
+
+/// Draws `range` of `list` where it is nearer than what the canvas shows: whole patches as opaque pixels, edge cells as fragments.
 /// Patches that reach behind the target eye are left out and their indices appended to `behind`.
-void draw_patches(const PatchInput& input, const PatchList& list, SurfaceCanvas& canvas,
+void draw_patches(const PatchInput& input, const PatchList& list, ListRange range, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind);
 
 /// The same for `prepared->tiles`.
-void draw_tiles(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind);
+void draw_tiles(const PatchInput& input, ListRange range, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind);
 
 /// How many of the depths are below `limit`.
 [[nodiscard]] std::size_t count_below(const float* depths, std::size_t count, float limit);

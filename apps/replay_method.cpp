@@ -37,9 +37,7 @@ const FrameWarper& ReplayMethod::eye(std::size_t index) const {
     return mono_ ? *mono_ : stereo_->eye(static_cast<Eye>(index));
 }
 
-const PictureMaker& ReplayMethod::maker() const {
-    return mono_ ? static_cast<const PictureMaker&>(*mono_) : *stereo_;
-}
+const PictureMaker& ReplayMethod::maker() const { return mono_ ? static_cast<const PictureMaker&>(*mono_) : *stereo_; }
 
 const WarpCounters& ReplayMethod::counters() const { return maker().counters(); }
 

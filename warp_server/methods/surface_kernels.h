@@ -19,8 +19,8 @@ struct ListRange {
     std::size_t end = 0;
 };
 
-/// Draws `range` of `list` where it is nearer than what the canvas shows: whole patches as opaque pixels, edge cells as fragments.
-/// Patches that reach behind the target eye are left out and their indices appended to `behind`.
+/// Draws `range` of `list` where it is nearer than what the canvas shows: whole patches as opaque pixels, edge cells as
+/// fragments. Patches that reach behind the target eye are left out and their indices appended to `behind`.
 void draw_patches(const PatchInput& input, const PatchList& list, ListRange range, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind);
 

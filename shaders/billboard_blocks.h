@@ -28,7 +28,7 @@ const int kBindingActive = 2;
 const int kAttributeBillboard = 0;
 const int kBillboardMembers = 9;
 
-const int kMaxReliefSteps = 8;
+const int kMaxReliefSteps = 16;
 
 // A billboard as one frame draws it. Eye space is that of the picture, the picture's axes.
 struct BillboardRecord {

@@ -42,15 +42,33 @@ float dither_level() {
 }
 #endif
 
-void main() {
-    ivec2 first = ivec2(v_slot.xy);
-    vec2 size = v_slot.zw;
-
 #ifdef WARPED
-    // Along the pixel's ray, at inverse distance q: texel = (a + q b).xy / (a + q b).z, and the ray is q / (a + q b).z
-    // away from the eye that drew the billboard, in inverse distance.
+struct Candidate {
+    ivec2 texel;
+    float q;  // inverse distance at which the ray would meet the texel's surface; 0: there is none
+};
+
+// What the billboard holds where the pixel's ray is at inverse distance q. With the texel under the ray at infinity, a,
+// and how it moves, b: texel = (a + q b).xy / (a + q b).z, and the ray is q / (a + q b).z away from the eye that drew
+// the billboard, in inverse distance.
+Candidate candidate_at(float q) {
     vec3 a = v_texel_from_ray;
     vec3 b = v_relief.xyz;
+    vec3 s = a + q * b;
+    vec2 place = floor(s.xy / s.z);
+    vec2 inside = clamp(place, vec2(0.0), v_slot.zw - 1.0);
+    ivec2 texel = ivec2(v_slot.xy + inside);
+    float stored = texelFetch(u_depth, texel, 0).r;
+    float inverse_drawn = stored * v_depth.x + v_depth.y;
+    bool empty = stored == 0.0 || place != inside;
+    return Candidate(texel, empty ? 0.0 : inverse_drawn * a.z / (1.0 - inverse_drawn * b.z));
+}
+#endif
+
+void main() {
+#ifdef WARPED
+    // The ray is followed from its nearest place on. What shows is a texel that lies where its own surface crosses the
+    // ray: without that check whatever stands before something else grows by half a texel on each side.
     int steps = int(v_relief.w);
     float q_step = (v_range.y - v_range.x) / float(steps);
     float tolerance = 0.75 * abs(q_step);
@@ -58,35 +76,19 @@ void main() {
     ivec2 texel = ivec2(0);
     for (int i = 0; i < steps; ++i) {
         float q_try = v_range.x + (float(i) + 0.5) * q_step;
-        vec3 s = a + q_try * b;
-        vec2 place = floor(s.xy / s.z);
-        ivec2 found = first + ivec2(clamp(place, vec2(0.0), size - 1.0));
-        float stored = texelFetch(u_depth, found, 0).r;
-        float inverse_drawn = stored * v_depth.x + v_depth.y;
-        // Where on the ray that surface would be, were it at this texel.
-        float q_found = inverse_drawn * a.z / (1.0 - inverse_drawn * b.z);
-        bool hit = stored > 0.0 && place == clamp(place, vec2(0.0), size - 1.0) &&
-                   abs(q_found - q_try) <= tolerance;
+        Candidate near_by = candidate_at(q_try);
+        Candidate found = candidate_at(near_by.q);
+        bool hit = near_by.q > 0.0 && found.q > 0.0 && abs(near_by.q - q_try) <= tolerance &&
+                   abs(found.q - near_by.q) <= tolerance;
         if (hit && q == 0.0) {
-            q = q_found;
-            texel = found;
+            q = found.q;
+            texel = found.texel;
         }
     }
     if (q <= 0.0) discard;
-    // One step of a fixed-point search: the surface lies a little before or behind the step that found it.
-    vec3 s = a + q * b;
-    vec2 place = floor(s.xy / s.z);
-    ivec2 refined = first + ivec2(clamp(place, vec2(0.0), size - 1.0));
-    float stored = texelFetch(u_depth, refined, 0).r;
-    float inverse_drawn = stored * v_depth.x + v_depth.y;
-    float q_refined = inverse_drawn * a.z / (1.0 - inverse_drawn * b.z);
-    if (stored > 0.0 && abs(q_refined - q) <= 2.0 * tolerance) {
-        q = q_refined;
-        texel = refined;
-    }
     gl_FragDepth = u_near_m * q;
 #else
-    ivec2 texel = first + ivec2(clamp(v_texel, vec2(0.0), size - 1.0));
+    ivec2 texel = ivec2(v_slot.xy + clamp(floor(v_texel), vec2(0.0), v_slot.zw - 1.0));
     float stored = texelFetch(u_depth, texel, 0).r;
     if (stored == 0.0) discard;
     float distance_m = 1.0 / (stored * v_depth.x + v_depth.y) + v_depth.z;

@@ -54,6 +54,9 @@ HWY_INLINE std::uint32_t bits_of(MF mask) {
     }
 }
 
+/// @param count  at most 32
+constexpr std::uint32_t lowest_bits(std::size_t count) { return count == 32 ? ~0U : (1U << count) - 1U; }
+
 struct BoxVector {
     VF centre_x;
     VF centre_y;
@@ -117,45 +120,82 @@ HWY_INLINE MF large_enough(const BoxVector& boxes, const std::array<float, 3>& e
 /// Where a vector of boxes lies in the buffer, in its pixels, and the reverse distance of their nearest points; 1e30
 /// where a box reaches before the near plane.
 struct Projected {
-    HWY_ALIGN std::array<float, kMaxLanes> x0;
-    HWY_ALIGN std::array<float, kMaxLanes> x1;
-    HWY_ALIGN std::array<float, kMaxLanes> y0;
-    HWY_ALIGN std::array<float, kMaxLanes> y1;
-    HWY_ALIGN std::array<float, kMaxLanes> reverse;
+    VF x0;
+    VF x1;
+    VF y0;
+    VF y1;
+    VF reverse;
 };
 
-HWY_INLINE void project(const BoxVector& boxes, const OcclusionBuffer::View& view, Projected& projected) {
+/// What takes places p to the buffer: x_px * distance = dot(x_px.xyz, p) + x_px.w, and so on.
+struct ProjectingRows {
+    std::array<float, 4> x_px{};
+    std::array<float, 4> y_px{};
+    std::array<float, 4> distance{};
+    std::array<float, 3> rounding{};  ///< what these three sums are off by at most
+};
+
+using Vector3 = std::array<VF, 3>;
+
+HWY_INLINE VF dot(const float* row, const Vector3& v) {
     const DF d;
-    std::array<VF, 3> centre{hn::Sub(boxes.centre_x, hn::Set(d, view.eye_world[0])),
-                             hn::Sub(boxes.centre_y, hn::Set(d, view.eye_world[1])),
-                             hn::Sub(boxes.centre_z, hn::Set(d, view.eye_world[2]))};
-    std::array<VF, 3> half{boxes.half_x, boxes.half_y, boxes.half_z};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        // The box and the eye were rounded to single precision.
-        const VF size = hn::Add(hn::Abs(centre[axis]), hn::Set(d, std::abs(view.eye_world[axis])));
-        half[axis] = hn::MulAdd(size, hn::Set(d, 3e-7F), half[axis]);
-    }
-    const auto dot = [&](const std::array<float, 3>& row, const std::array<VF, 3>& v) HWY_ATTR {
-        return hn::MulAdd(hn::Set(d, row[0]), v[0],
-                          hn::MulAdd(hn::Set(d, row[1]), v[1], hn::Mul(hn::Set(d, row[2]), v[2])));
+    return hn::MulAdd(hn::Set(d, row[0]), v[0],
+                      hn::MulAdd(hn::Set(d, row[1]), v[1], hn::Mul(hn::Set(d, row[2]), v[2])));
+}
+
+/// Projects boxes that are at least kFar times as far away as they are deep: to the rectangle around their centre's
+/// place u that no corner leaves. A corner at d from the centre lies dot(x_row - u * z_row, d) / (z + dot(z_row, d))
+/// beside u, so a box of half size h reaches at most dot(|x_row - u * z_row|, h) / (z - dot(|z_row|, h)): one division
+/// for a box instead of one for each of its corners.
+/// @return  lanes whose boxes are so far; the others' values mean nothing
+HWY_INLINE MF project_from_afar(const Vector3& centre, const Vector3& half, const ProjectingRows& rows, float near_m,
+                                Projected& projected) {
+    const DF d;
+    constexpr float kFar = 4.0F;
+    const VF one = hn::Set(d, 1.0F);
+    const VF z = hn::Add(dot(rows.distance.data(), centre), hn::Set(d, rows.distance[3]));
+    VF depth = hn::Set(d, rows.rounding[2]);
+    for (std::size_t i = 0; i < 3; ++i) depth = hn::MulAdd(hn::Set(d, std::abs(rows.distance[i])), half[i], depth);
+    const VF nearest = hn::Sub(z, depth);
+    const VF per_both = hn::Div(one, hn::Mul(z, nearest));
+    const VF per_z = hn::Mul(per_both, nearest);
+    const VF per_nearest = hn::Mul(per_both, z);
+    const auto place = [&](const std::array<float, 4>& row, float rounding, VF& low, VF& high) HWY_ATTR {
+        const VF u = hn::Mul(hn::Add(dot(row.data(), centre), hn::Set(d, row[3])), per_z);
+        VF reach = hn::MulAdd(hn::Abs(u), hn::Set(d, rows.rounding[2]), hn::Set(d, rounding));
+        for (std::size_t i = 0; i < 3; ++i) {
+            const VF across = hn::NegMulAdd(u, hn::Set(d, rows.distance[i]), hn::Set(d, row[i]));
+            reach = hn::MulAdd(hn::Abs(across), half[i], reach);
+        }
+        low = hn::NegMulAdd(reach, per_nearest, u);
+        high = hn::MulAdd(reach, per_nearest, u);
     };
-    const VF cx = dot(view.x_px, centre);
-    const VF cy = dot(view.y_px, centre);
-    const VF cz = dot(view.distance, centre);
+    place(rows.x_px, rows.rounding[0], projected.x0, projected.x1);
+    place(rows.y_px, rows.rounding[1], projected.y0, projected.y1);
+    projected.reverse = hn::Mul(hn::Set(d, 1.0F + kDepthRounding), per_nearest);
+    return hn::And(hn::Gt(nearest, hn::Set(d, near_m)), hn::Ge(z, hn::Mul(hn::Set(d, kFar), depth)));
+}
+
+/// The same, of boxes anywhere, by their corners.
+HWY_INLINE Projected project_corners(const Vector3& centre, const Vector3& half, const OcclusionBuffer::View& view) {
+    const DF d;
+    const VF cx = dot(view.x_px.data(), centre);
+    const VF cy = dot(view.y_px.data(), centre);
+    const VF cz = dot(view.distance.data(), centre);
     VF x0 = hn::Set(d, 1e30F);
     VF y0 = x0;
     VF x1 = hn::Set(d, -1e30F);
     VF y1 = x1;
     VF nearest = hn::Set(d, 1e30F);
     for (unsigned corner = 0; corner < 8; ++corner) {
-        std::array<VF, 3> offset = half;
+        Vector3 offset = half;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if ((corner >> axis & 1U) != 0) offset[axis] = hn::Neg(half[axis]);
         }
-        const VF z = hn::Add(cz, dot(view.distance, offset));
+        const VF z = hn::Add(cz, dot(view.distance.data(), offset));
         const VF per_z = hn::Div(hn::Set(d, 1.0F), z);
-        const VF x = hn::Mul(hn::Add(cx, dot(view.x_px, offset)), per_z);
-        const VF y = hn::Mul(hn::Add(cy, dot(view.y_px, offset)), per_z);
+        const VF x = hn::Mul(hn::Add(cx, dot(view.x_px.data(), offset)), per_z);
+        const VF y = hn::Mul(hn::Add(cy, dot(view.y_px.data(), offset)), per_z);
         nearest = hn::Min(nearest, z);
         x0 = hn::Min(x0, x);
         x1 = hn::Max(x1, x);
@@ -164,14 +204,49 @@ HWY_INLINE void project(const BoxVector& boxes, const OcclusionBuffer::View& vie
     }
     const MF behind = hn::Le(nearest, hn::Set(d, view.near_m));
     const VF reverse = hn::Div(hn::Set(d, 1.0F + kDepthRounding), nearest);
-    hn::Store(x0, d, projected.x0.data());
-    hn::Store(x1, d, projected.x1.data());
-    hn::Store(y0, d, projected.y0.data());
-    hn::Store(y1, d, projected.y1.data());
-    hn::Store(hn::IfThenElse(behind, hn::Set(d, 1e30F), reverse), d, projected.reverse.data());
+    return {x0, x1, y0, y1, hn::IfThenElse(behind, hn::Set(d, 1e30F), reverse)};
 }
 
-/// The same of one box.
+/// @param lanes  bits of the boxes that count
+HWY_INLINE Projected project(const BoxVector& boxes, const OcclusionBuffer::View& view, std::uint32_t lanes) {
+    const DF d;
+    const Vector3 centre{hn::Sub(boxes.centre_x, hn::Set(d, view.eye_world[0])),
+                         hn::Sub(boxes.centre_y, hn::Set(d, view.eye_world[1])),
+                         hn::Sub(boxes.centre_z, hn::Set(d, view.eye_world[2]))};
+    Vector3 half{boxes.half_x, boxes.half_y, boxes.half_z};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        // The box and the eye were rounded to single precision.
+        const VF size = hn::Add(hn::Abs(centre[axis]), hn::Set(d, std::abs(view.eye_world[axis])));
+        half[axis] = hn::MulAdd(size, hn::Set(d, 3e-7F), half[axis]);
+    }
+    const ProjectingRows rows{{view.x_px[0], view.x_px[1], view.x_px[2], 0.0F},
+                              {view.y_px[0], view.y_px[1], view.y_px[2], 0.0F},
+                              {view.distance[0], view.distance[1], view.distance[2], 0.0F},
+                              {}};
+    Projected projected;
+    const std::uint32_t far = bits_of(project_from_afar(centre, half, rows, view.near_m, projected));
+    if ((lanes & ~far) == 0) return projected;
+    return project_corners(centre, half, view);
+}
+
+/// As arrays, to take boxes out of one by one.
+struct StoredBoxes {
+    explicit StoredBoxes(const Projected& projected) {
+        const DF d;
+        hn::Store(projected.x0, d, x0.data());
+        hn::Store(projected.x1, d, x1.data());
+        hn::Store(projected.y0, d, y0.data());
+        hn::Store(projected.y1, d, y1.data());
+        hn::Store(projected.reverse, d, reverse.data());
+    }
+    HWY_ALIGN std::array<float, kMaxLanes> x0;
+    HWY_ALIGN std::array<float, kMaxLanes> x1;
+    HWY_ALIGN std::array<float, kMaxLanes> y0;
+    HWY_ALIGN std::array<float, kMaxLanes> y1;
+    HWY_ALIGN std::array<float, kMaxLanes> reverse;
+};
+
+/// One of them.
 struct ProjectedBox {
     float x0;
     float x1;
@@ -180,8 +255,34 @@ struct ProjectedBox {
     float reverse;
 };
 
-HWY_INLINE ProjectedBox lane(const Projected& projected, std::size_t i) {
-    return {projected.x0[i], projected.x1[i], projected.y0[i], projected.y1[i], projected.reverse[i]};
+HWY_INLINE ProjectedBox lane(const StoredBoxes& boxes, std::size_t i) {
+    return {boxes.x0[i], boxes.x1[i], boxes.y0[i], boxes.y1[i], boxes.reverse[i]};
+}
+
+/// Of one box far away, as project_from_afar().
+/// @return  whether it is so far
+HWY_INLINE bool project_one_from_afar(const glm::vec3& centre, const glm::vec3& half, const OcclusionBuffer::View& view,
+                                      ProjectedBox& box) {
+    constexpr float kFar = 4.0F;
+    const auto row = [](const std::array<float, 3>& values) { return glm::vec3{values[0], values[1], values[2]}; };
+    const glm::vec3 z_row = row(view.distance);
+    const float z = glm::dot(z_row, centre);
+    const float depth = glm::dot(glm::abs(z_row), half);
+    const float nearest = z - depth;
+    if (!(nearest > view.near_m && z >= kFar * depth)) return false;
+    const float per_both = 1.0F / (z * nearest);
+    const float per_z = per_both * nearest;
+    const float per_nearest = per_both * z;
+    const auto place = [&](const glm::vec3& across_row, float& low, float& high) {
+        const float u = glm::dot(across_row, centre) * per_z;
+        const float reach = glm::dot(glm::abs(across_row - u * z_row), half) * per_nearest;
+        low = u - reach;
+        high = u + reach;
+    };
+    place(row(view.x_px), box.x0, box.x1);
+    place(row(view.y_px), box.y0, box.y1);
+    box.reverse = (1.0F + kDepthRounding) * per_nearest;
+    return true;
 }
 
 /// Of one box, its corners side by side in a vector.
@@ -191,15 +292,12 @@ HWY_INLINE ProjectedBox project_one(const glm::vec3& box_min, const glm::vec3& b
     using V = hn::Vec<decltype(d)>;
     HWY_ALIGN static constexpr std::array<std::array<float, 8>, 3> kSigns{
         {{1, -1, 1, -1, 1, -1, 1, -1}, {1, 1, -1, -1, 1, 1, -1, -1}, {1, 1, 1, 1, -1, -1, -1, -1}}};
-    std::array<float, 3> centre{};
-    std::array<float, 3> half{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const auto a = static_cast<glm::length_t>(axis);
-        centre[axis] = 0.5F * (box_min[a] + box_max[a]) - view.eye_world[axis];
-        // The box and the eye were rounded to single precision, and so are these.
-        const float size = std::abs(centre[axis]) + std::abs(view.eye_world[axis]);
-        half[axis] = 0.5F * (box_max[a] - box_min[a]) + 3e-7F * size;
-    }
+    const glm::vec3 eye_world{view.eye_world[0], view.eye_world[1], view.eye_world[2]};
+    const glm::vec3 centre = 0.5F * (box_min + box_max) - eye_world;
+    // The box and the eye were rounded to single precision, and so are these.
+    const glm::vec3 half = 0.5F * (box_max - box_min) + 3e-7F * (glm::abs(centre) + glm::abs(eye_world));
+    ProjectedBox from_afar{};
+    if (project_one_from_afar(centre, half, view, from_afar)) return from_afar;
     const auto at_centre = [&](const std::array<float, 3>& row) {
         return row[0] * centre[0] + row[1] * centre[1] + row[2] * centre[2];
     };
@@ -232,19 +330,31 @@ HWY_INLINE ProjectedBox project_one(const glm::vec3& box_min, const glm::vec3& b
             hn::GetLane(hn::MaxOfLanes(d, y1)), nearest_m > view.near_m ? (1.0F + kDepthRounding) / nearest_m : 1e30F};
 }
 
+/// Lanes whose boxes reach into the picture, or before the near plane.
+HWY_INLINE MF in_picture(const Projected& projected, const OcclusionBuffer::View& view) {
+    const DF d;
+    const VF snap = hn::Set(d, kSnapPx);
+    const auto inside = [&](VF low, VF high, float size) HWY_ATTR {
+        return hn::And(hn::Ge(hn::Add(high, snap), hn::Zero(d)), hn::Le(hn::Sub(low, snap), hn::Set(d, size)));
+    };
+    const MF before_near = hn::Ge(projected.reverse, hn::Set(d, 1e29F));
+    return hn::Or(before_near, hn::And(inside(projected.x0, projected.x1, view.size_px[0]),
+                                       inside(projected.y0, projected.y1, view.size_px[1])));
+}
+
 /// Lanes whose boxes have a sample of the picture in the rectangle around them. The others fall between the samples:
 /// nothing of them is drawn.
 HWY_INLINE MF meets_sample(const Projected& projected, const OcclusionBuffer::View& view) {
     const DF d;
-    const auto meets = [&](const auto& low, const auto& high, float samples_per_px) HWY_ATTR {
+    const auto meets = [&](VF low, VF high, float samples_per_px) HWY_ATTR {
         const VF scale = hn::Set(d, samples_per_px);
         const VF snap = hn::Set(d, kSnapPx);
         const VF half = hn::Set(d, 0.5F);
-        const VF first = hn::Ceil(hn::Sub(hn::Mul(hn::Sub(hn::Load(d, low.data()), snap), scale), half));
-        const VF last = hn::Floor(hn::Sub(hn::Mul(hn::Add(hn::Load(d, high.data()), snap), scale), half));
+        const VF first = hn::Ceil(hn::Sub(hn::Mul(hn::Sub(low, snap), scale), half));
+        const VF last = hn::Floor(hn::Sub(hn::Mul(hn::Add(high, snap), scale), half));
         return hn::Le(first, last);
     };
-    const MF before_near = hn::Ge(hn::Load(d, projected.reverse.data()), hn::Set(d, 1e29F));
+    const MF before_near = hn::Ge(projected.reverse, hn::Set(d, 1e29F));
     return hn::Or(before_near, hn::And(meets(projected.x0, projected.x1, view.samples_per_px[0]),
                                        meets(projected.y0, projected.y1, view.samples_per_px[1])));
 }
@@ -309,7 +419,9 @@ HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const ProjectedBox& box
     constexpr int kTileY = OcclusionBuffer::kTileY;
     for (int ty = y0 / kParts / kTileY; ty <= y1 / kParts / kTileY; ++ty) {
         for (int tx = x0 / kParts / kTileX; tx <= x1 / kParts / kTileX; ++tx) {
-            if (buffer.tiles()[ty * buffer.tile_stride() + tx] > box.reverse) continue;
+            const OcclusionBuffer::Tile& tile = buffer.tiles()[ty * buffer.tile_stride() + tx];
+            if (tile.farthest > box.reverse) continue;
+            if (tile.nearest <= box.reverse) return false;
             if (!tile_hides(buffer, {tx * kTileX, ty * kTileY}, {x0, y0, x1, y1}, box.reverse)) return false;
         }
     }

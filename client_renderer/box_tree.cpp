@@ -110,7 +110,7 @@ private:
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
         for (std::uint32_t i = first; i < end; i += lanes) {
             const std::uint32_t count = std::min(lanes, end - i);
-            const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
+            const std::uint32_t all = lowest_bits(count);
             const BoxVector boxes = load_boxes(boxes_, i);
             counters_.items += count;
             std::uint32_t bits = bits_of(in_frustum(boxes, query_.frustum, planes)) & all;
@@ -121,23 +121,25 @@ private:
                 counters_.items_too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
                 bits = large;
             }
-            Projected projected;
-            const bool may_hide = query_.occlusion != nullptr && bits != 0;
-            if (may_hide) {
-                project(boxes, query_.occlusion->view(), projected);
-                const std::uint32_t sampled = bits & bits_of(meets_sample(projected, query_.occlusion->view()));
-                counters_.items_between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
-                bits = sampled;
-            }
-            for (; bits != 0; bits &= bits - 1) {
-                const auto at = static_cast<std::uint32_t>(std::countr_zero(bits));
-                if (may_hide && is_hidden(*query_.occlusion, lane(projected, at))) {
-                    ++counters_.items_hidden;
-                } else {
-                    seen_.push_back(bvh_.order()[i + at]);
-                }
-            }
+            if (query_.occlusion != nullptr && bits != 0) bits = not_hidden(boxes, bits);
+            for (; bits != 0; bits &= bits - 1) seen_.push_back(bvh_.order()[i + std::countr_zero(bits)]);
         }
+    }
+
+    /// Those of the boxes whose bits are set that have a sample and are not hidden.
+    std::uint32_t not_hidden(const BoxVector& boxes, std::uint32_t bits) {
+        const OcclusionBuffer& buffer = *query_.occlusion;
+        const Projected projected = project(boxes, buffer.view(), bits);
+        const std::uint32_t sampled = bits & bits_of(meets_sample(projected, buffer.view()));
+        counters_.items_between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
+        if (sampled == 0) return 0;
+        const StoredBoxes stored{projected};
+        std::uint32_t seen = 0;
+        for (std::uint32_t rest = sampled; rest != 0; rest &= rest - 1) {
+            if (!is_hidden(buffer, lane(stored, static_cast<std::size_t>(std::countr_zero(rest))))) seen |= rest & -rest;
+        }
+        counters_.items_hidden += static_cast<std::uint64_t>(std::popcount(sampled & ~seen));
+        return seen;
     }
 
     const scene::Bvh& bvh_;
@@ -215,7 +217,7 @@ private:
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
         for (std::uint32_t i = first; i < end; i += lanes) {
             const std::uint32_t count = std::min(lanes, end - i);
-            const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
+            const std::uint32_t all = lowest_bits(count);
             const BoxVector boxes = load_boxes(boxes_, i);
             std::array<std::uint32_t, BoxTree::kMostFrusta> bits{};
             std::uint32_t any = 0;

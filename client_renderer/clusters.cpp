@@ -13,111 +13,148 @@
 
 #include "client_renderer/box_kernels.h"
 
-#ifndef LW_CLUSTERS_ONCE
-#define LW_CLUSTERS_ONCE
-namespace lw {
-
-/// The placement of an instance, in single precision relative to the eye: positions keep their digits however far the
-/// eye is from the world's origin.
-struct RelativePlacement {
-    float linear[3][3];  ///< rows
-    float origin[3];
-};
-
-/// Of one instance.
-struct ClusterTest {
-    RelativePlacement relative_from_object;
-    float eye_object[3];
-    float margin_object;
-};
-
-}  // namespace lw
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
 
+/// Places in single precision: the sums and products here, and the vertices' own way through the vertex shader.
+constexpr float kPlacingRounding = 1e-6F;
+
 /// Boxes around the placed boxes.
-HWY_INLINE BoxVector placed(const BoxVector& object, const RelativePlacement& placement) {
+BoxVector placed(const BoxVector& object, const std::array<glm::vec4, 3>& rows) {
     const DF d;
-    const std::array<VF, 3> centre{object.centre_x, object.centre_y, object.centre_z};
-    const std::array<VF, 3> half{object.half_x, object.half_y, object.half_z};
-    std::array<VF, 3> to{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    std::array<VF, 3> reach{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    const Vector3 centre{object.centre_x, object.centre_y, object.centre_z};
+    const Vector3 half{object.half_x, object.half_y, object.half_z};
+    Vector3 to{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
+    Vector3 reach{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
     for (std::size_t row = 0; row < 3; ++row) {
-        to[row] = hn::Set(d, placement.origin[row]);
-        VF size = hn::Set(d, std::abs(placement.origin[row]));
+        const glm::vec4& m = rows[row];
+        to[row] = hn::Add(dot(&m.x, centre), hn::Set(d, m.w));
+        VF size = hn::Set(d, std::abs(m.w));
         for (std::size_t k = 0; k < 3; ++k) {
-            const VF m = hn::Set(d, placement.linear[row][k]);
-            to[row] = hn::MulAdd(m, centre[k], to[row]);
-            size = hn::MulAdd(hn::Abs(m), hn::Abs(centre[k]), size);
-            reach[row] = hn::MulAdd(hn::Abs(m), half[k], reach[row]);
+            const VF magnitude = hn::Set(d, std::abs(m[static_cast<glm::length_t>(k)]));
+            size = hn::MulAdd(magnitude, hn::Abs(centre[k]), size);
+            reach[row] = hn::MulAdd(magnitude, half[k], reach[row]);
         }
         // Rounding of this sum and of the part's vertices on their own way through single precision.
-        reach[row] = hn::MulAdd(hn::Add(size, reach[row]), hn::Set(d, 1e-6F), reach[row]);
+        reach[row] = hn::MulAdd(hn::Add(size, reach[row]), hn::Set(d, kPlacingRounding), reach[row]);
     }
     return {to[0], to[1], to[2], reach[0], reach[1], reach[2]};
 }
 
+ProjectingRows projecting_rows(const ClusterRange& range, const ClusterPlacement& placement) {
+    ProjectingRows rows;
+    std::array<std::array<float, 4>*, 3> to{&rows.x_px, &rows.y_px, &rows.distance};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const glm::vec4& row = placement.buffer_from_object_rows[i];
+        *to[i] = {row.x, row.y, row.z, row.w};
+        rows.rounding[i] =
+            kPlacingRounding * (glm::dot(glm::abs(glm::vec3{row}), range.reach_object) + std::abs(row.w));
+    }
+    return rows;
+}
+
 /// Clusters whose triangles are all turned away from every eye within the margin.
-HWY_INLINE MF turned_away(const float* cones, std::size_t stride, const ClusterTest& test) {
+HWY_INLINE MF turned_away(const float* cones, std::size_t stride, const ClusterPlacement& placement) {
     const DF d;
     const auto row = [&](std::size_t which) HWY_ATTR { return hn::LoadU(d, cones + which * stride); };
-    const VF x = hn::Sub(row(0), hn::Set(d, test.eye_object[0]));
-    const VF y = hn::Sub(row(1), hn::Set(d, test.eye_object[1]));
-    const VF z = hn::Sub(row(2), hn::Set(d, test.eye_object[2]));
-    const VF margin = hn::Set(d, test.margin_object);
-    const VF along = hn::Sub(hn::MulAdd(x, row(3), hn::MulAdd(y, row(4), hn::Mul(z, row(5)))), margin);
-    const VF distance = hn::Add(hn::Sqrt(hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)))), margin);
+    const VF x = hn::Sub(row(0), hn::Set(d, placement.eye_object.x));
+    const VF y = hn::Sub(row(1), hn::Set(d, placement.eye_object.y));
+    const VF z = hn::Sub(row(2), hn::Set(d, placement.eye_object.z));
+    const VF margin = hn::Set(d, placement.margin_object);
     const VF cutoff = row(6);
-    return hn::And(hn::And(hn::Le(cutoff, hn::Set(d, 1.0F)), hn::Gt(along, hn::Zero(d))),
-                   hn::Ge(along, hn::Mul(cutoff, distance)));
+    // along - margin >= cutoff * (distance + margin), without the root.
+    const VF along = hn::MulAdd(x, row(3), hn::MulAdd(y, row(4), hn::Mul(z, row(5))));
+    const VF beyond = hn::Sub(along, hn::MulAdd(cutoff, margin, margin));
+    const VF distance_2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
+    return hn::And(hn::And(hn::Le(cutoff, hn::Set(d, 1.0F)), hn::Gt(beyond, hn::Zero(d))),
+                   hn::Ge(hn::Mul(beyond, beyond), hn::Mul(hn::Mul(cutoff, cutoff), distance_2)));
 }
 
 /// Clusters at least a pixel of the buffer large: smaller ones lie in the same pixels as their object, which was not
 /// hidden, and there are many of them far away.
 HWY_INLINE MF worth_a_test(const Projected& projected) {
     const DF d;
-    const VF width = hn::Sub(hn::Load(d, projected.x1.data()), hn::Load(d, projected.x0.data()));
-    const VF height = hn::Sub(hn::Load(d, projected.y1.data()), hn::Load(d, projected.y0.data()));
+    const VF width = hn::Sub(projected.x1, projected.x0);
+    const VF height = hn::Sub(projected.y1, projected.y0);
     return hn::Ge(hn::Max(width, height), hn::Set(d, 1.0F));
 }
 
-void test_here(const Clusters& clusters, const ClusterRange& range, const ClusterTest& test, std::uint8_t* drawn,
-               ClusterCounters& counters) {
-    const Clusters::View& view = clusters.view();
+/// One instance against the view.
+class InstanceTest {
+public:
+    InstanceTest(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
+             ClusterCounters& counters)
+        : clusters_{clusters},
+          view_{clusters.view()},
+          placement_{placement},
+          rows_{projecting_rows(range, placement)},
+          counters_{counters} {}
+
+    /// Bits of the clusters from `first` on that may be seen.
+    /// @param all  bits of those that there are
+    HWY_INLINE std::uint32_t seen(std::size_t first, std::uint32_t all) {
+        const BoxVector boxes = load_boxes(clusters_.boxes(), first);
+        const Vector3 centre{boxes.centre_x, boxes.centre_y, boxes.centre_z};
+        const Vector3 half{boxes.half_x, boxes.half_y, boxes.half_z};
+        Projected projected;
+        std::uint32_t bits = all;
+        const MF far = project_from_afar(centre, half, rows_, view_.buffer_relative.near_m, projected);
+        if ((all & ~bits_of(far)) != 0) bits = keep_in_view(boxes, bits, projected);
+        bits = kept(bits, in_picture(projected, view_.buffer_relative), counters_.outside);
+        bits = kept(bits, meets_sample(projected, view_.buffer_relative), counters_.between_samples);
+        if (bits == 0) return 0;
+        const MF away = turned_away(clusters_.cone_row(0) + first, clusters_.cone_stride(), placement_);
+        bits = kept(bits, hn::Not(away), counters_.turned_away);
+        if (view_.least_size_per_distance > 0.0F && bits != 0) {
+            const BoxVector relative = placed(boxes, placement_.relative_from_object_rows);
+            bits = kept(bits, large_enough(relative, {}, view_.least_size_per_distance), counters_.too_small);
+        }
+        if (view_.occlusion != nullptr) bits = not_hidden(projected, bits);
+        return bits;
+    }
+
+private:
+    static HWY_INLINE std::uint32_t kept(std::uint32_t bits, MF keep, std::uint64_t& left_out) {
+        const std::uint32_t kept_bits = bits & bits_of(keep);
+        left_out += static_cast<std::uint64_t>(std::popcount(bits & ~kept_bits));
+        return kept_bits;
+    }
+
+    /// Near the eye a rectangle around a cluster says little.
+    std::uint32_t keep_in_view(const BoxVector& boxes, std::uint32_t bits, Projected& projected) {
+        const BoxVector relative = placed(boxes, placement_.relative_from_object_rows);
+        projected = project(relative, view_.buffer_relative, bits);
+        return kept(bits, in_frustum(relative, view_.frustum_relative, FloatFrustum::kAllPlanes), counters_.outside);
+    }
+
+    HWY_INLINE std::uint32_t not_hidden(const Projected& projected, std::uint32_t bits) {
+        std::uint32_t rest = bits & bits_of(worth_a_test(projected));
+        if (rest == 0) return bits;
+        const StoredBoxes stored{projected};
+        for (; rest != 0; rest &= rest - 1) {
+            if (!is_hidden(*view_.occlusion, lane(stored, static_cast<std::size_t>(std::countr_zero(rest))))) continue;
+            bits &= ~(rest & -rest);
+            ++counters_.occluded;
+        }
+        return bits;
+    }
+
+    const Clusters& clusters_;
+    const Clusters::View& view_;
+    const ClusterPlacement& placement_;
+    ProjectingRows rows_;
+    ClusterCounters& counters_;
+};
+
+/// @param shown  one bit per cluster; zeros come in
+void test_here(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
+               std::uint64_t* shown, ClusterCounters& counters) {
+    InstanceTest test{clusters, range, placement, counters};
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
     for (std::uint32_t i = 0; i < range.count; i += lanes) {
-        const std::uint32_t count = std::min(lanes, range.count - i);
-        const std::uint32_t all = count == 32 ? ~0U : (1U << count) - 1U;
-        std::uint32_t bits =
-            all & ~bits_of(turned_away(clusters.cone_row(0) + range.first + i, clusters.cone_stride(), test));
-        counters.turned_away += static_cast<std::uint64_t>(std::popcount(all & ~bits));
-        const BoxVector relative = placed(load_boxes(clusters.boxes(), range.first + i), test.relative_from_object);
-        const std::uint32_t inside =
-            bits & bits_of(in_frustum(relative, view.frustum_relative, FloatFrustum::kAllPlanes));
-        counters.outside += static_cast<std::uint64_t>(std::popcount(bits & ~inside));
-        bits = inside;
-        if (view.least_size_per_distance > 0.0F) {
-            const std::uint32_t large = bits & bits_of(large_enough(relative, {}, view.least_size_per_distance));
-            counters.too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
-            bits = large;
-        }
-        if (view.occlusion != nullptr && bits != 0) {
-            Projected projected;
-            project(relative, view.buffer_relative, projected);
-            const std::uint32_t sampled = bits & bits_of(meets_sample(projected, view.buffer_relative));
-            counters.between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
-            bits = sampled;
-            for (std::uint32_t rest = bits & bits_of(worth_a_test(projected)); rest != 0; rest &= rest - 1) {
-                const auto at = static_cast<std::uint32_t>(std::countr_zero(rest));
-                if (!is_hidden(*view.occlusion, lane(projected, at))) continue;
-                bits &= ~(1U << at);
-                ++counters.occluded;
-            }
-        }
-        for (std::uint32_t k = 0; k < count; ++k) drawn[i + k] = static_cast<std::uint8_t>(bits >> k & 1U);
+        const std::uint32_t bits = test.seen(range.first + i, lowest_bits(std::min(lanes, range.count - i)));
+        shown[i / 64] |= std::uint64_t{bits} << (i % 64);
     }
 }
 
@@ -139,24 +176,6 @@ constexpr float kEdgeOn = 0.1F;
 // Skipping fewer triangles than this between two runs costs more, as one more draw, than it saves: a draw takes about
 // as long as 30 triangles.
 constexpr std::uint32_t kWorthADraw = 3 * 32;
-
-ClusterTest test_of(const glm::dmat4& world_from_object, const glm::dvec3& eye_world, double margin_m) {
-    ClusterTest test{};
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 3; ++column) {
-            test.relative_from_object.linear[row][column] = static_cast<float>(world_from_object[column][row]);
-        }
-        test.relative_from_object.origin[row] = static_cast<float>(world_from_object[3][row] - eye_world[row]);
-    }
-    const glm::dmat3 inverse = glm::inverse(glm::dmat3{world_from_object});
-    const glm::dvec3 eye_object = inverse * (eye_world - glm::dvec3{world_from_object[3]});
-    // The margin in object space, as far as the inverse stretches it at most.
-    double stretch = 0.0;
-    for (int column = 0; column < 3; ++column) stretch += glm::dot(inverse[column], inverse[column]);
-    for (int i = 0; i < 3; ++i) test.eye_object[i] = static_cast<float>(eye_object[i]);
-    test.margin_object = static_cast<float>(margin_m * std::sqrt(stretch));
-    return test;
-}
 
 }  // namespace
 
@@ -194,6 +213,9 @@ ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<st
         bounds_.push_back(bounds);
     }
     range.count = static_cast<std::uint32_t>(meshlets.size());
+    for (const scene::Vertex& vertex : vertices) {
+        range.reach_object = glm::max(range.reach_object, glm::abs(vertex.position_object));
+    }
     return range;
 }
 
@@ -222,30 +244,63 @@ void Clusters::begin(const ClusterView& view) {
     view_.frustum_relative = rounded(relative);
     view_.occlusion = view.occlusion;
     view_.least_size_per_distance = static_cast<float>(view.least_size_per_distance);
-    if (view.occlusion == nullptr) return;
-    view_.buffer_relative = view.occlusion->view();
+    view_.buffer_relative = view.buffer_view;
     view_.buffer_relative.eye_world = {};
 }
 
-void Clusters::append_runs(const ClusterRange& range, const glm::dmat4& world_from_object,
-                           std::vector<IndexRun>& runs) {
-    drawn_.resize(std::max<std::size_t>(drawn_.size(), range.count));
+ClusterPlacement Clusters::placement(const glm::dmat4& world_from_object) const {
+    ClusterPlacement placement;
+    const glm::dmat3 linear{world_from_object};
+    const glm::dvec3 origin = glm::dvec3{world_from_object[3]} - eye_world_;
+    const glm::dmat3 rows = glm::transpose(linear);
+    const OcclusionBuffer::View& buffer = view_.buffer_relative;
+    const std::array<const std::array<float, 3>*, 3> buffer_rows{&buffer.x_px, &buffer.y_px, &buffer.distance};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto axis = static_cast<glm::length_t>(i);
+        placement.relative_from_object_rows[i] = glm::vec4{glm::dvec4{rows[axis], origin[axis]}};
+        const glm::dvec3 row{(*buffer_rows[i])[0], (*buffer_rows[i])[1], (*buffer_rows[i])[2]};
+        placement.buffer_from_object_rows[i] = glm::vec4{glm::dvec4{row * linear, glm::dot(row, origin)}};
+    }
+    const glm::dmat3 inverse = glm::inverse(linear);
+    placement.eye_object = glm::vec3{inverse * -origin};
+    // The margin in object space, as far as the inverse stretches it at most.
+    double stretch = 0.0;
+    for (int column = 0; column < 3; ++column) stretch += glm::dot(inverse[column], inverse[column]);
+    placement.margin_object = static_cast<float>(reveal_margin_m_ * std::sqrt(stretch));
+    return placement;
+}
+
+void Clusters::test(const ClusterRange& range, const glm::dmat4& world_from_object,
+                    std::vector<std::uint64_t>& shown) {
+    const std::size_t first_word = shown.size();
+    shown.resize(first_word + (range.count + 63) / 64, 0);
     counters_.tested += range.count;
-    const ClusterTest test = test_of(world_from_object, eye_world_, reveal_margin_m_);
-    HWY_DYNAMIC_DISPATCH(test_here)(*this, range, test, drawn_.data(), counters_);
+    HWY_DYNAMIC_DISPATCH(test_here)(*this, range, placement(world_from_object), shown.data() + first_word, counters_);
+}
+
+void Clusters::append_runs(const ClusterRange& part, std::span<const std::uint64_t> shown, std::size_t first_bit,
+                           std::vector<IndexRun>& runs) const {
     const std::size_t first_new = runs.size();
-    for (std::uint32_t i = 0; i < range.count; ++i) {
-        if (drawn_[i] == 0) continue;
-        const std::uint32_t begin = first_indices_[range.first + i];
-        const std::uint32_t count = index_counts_[range.first + i];
-        if (runs.size() > first_new) {
-            IndexRun& last = runs.back();
-            if (begin - (last.first + last.count) < kWorthADraw) {
-                last.count = begin + count - last.first;
-                continue;
-            }
+    for (std::uint32_t i = 0; i < part.count;) {
+        // The next up to 64 bits, from i on.
+        const std::size_t at = first_bit + i;
+        const std::uint64_t bits = shown[at / 64] >> (at % 64);
+        const auto left = static_cast<std::uint32_t>(64 - at % 64);
+        if (bits == 0) {
+            i += left;
+            continue;
         }
-        runs.push_back({begin, count});
+        const std::uint32_t first = i + static_cast<std::uint32_t>(std::countr_zero(bits));
+        if (first >= part.count) break;
+        const auto length = static_cast<std::uint32_t>(std::countr_one(bits >> (first - i)));
+        i = std::min(first + length, part.count);
+        const std::uint32_t begin = first_indices_[part.first + first];
+        const std::uint32_t end = first_indices_[part.first + i - 1] + index_counts_[part.first + i - 1];
+        if (runs.size() > first_new && begin - (runs.back().first + runs.back().count) < kWorthADraw) {
+            runs.back().count = end - runs.back().first;
+        } else {
+            runs.push_back({begin, end - begin});
+        }
     }
 }
 

@@ -13,10 +13,11 @@
 
 namespace lw {
 
-/// Clusters of one part of a mesh: a range of Clusters.
+/// Clusters of a part of a mesh, or of all of its parts: a range of Clusters.
 struct ClusterRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
+    glm::vec3 reach_object{0.0F};  ///< no coordinate is larger, on each axis
 };
 
 /// Neighbouring clusters of a part that are drawn: a range of the part's indices, counted from its first.
@@ -40,8 +41,17 @@ struct ClusterView {
     Frustum frustum_world;
     glm::dvec3 eye_world{0.0};
     double reveal_margin_m = 0.0;
+    OcclusionBuffer::View buffer_view;           ///< where things lie in the picture
     const OcclusionBuffer* occlusion = nullptr;  ///< null: nothing is hidden
     double least_size_per_distance = 0.0;        ///< clusters that look smaller are left out, as WalkQuery says
+};
+
+/// An instance as a view sees it.
+struct ClusterPlacement {
+    std::array<glm::vec4, 3> relative_from_object_rows;  ///< origin in the eye, axes of the world
+    std::array<glm::vec4, 3> buffer_from_object_rows;    ///< x_px * distance, y_px * distance, distance
+    glm::vec3 eye_object{0.0F};
+    float margin_object = 0.0F;
 };
 
 /// One thread at a time.
@@ -64,8 +74,15 @@ public:
     /// Before the runs of a view; what the view points to outlives them.
     void begin(const ClusterView& view);
 
-    /// Appends the runs of a part that an instance shows. It may keep what is not seen, never leave out what is.
-    void append_runs(const ClusterRange& range, const glm::dmat4& world_from_object, std::vector<IndexRun>& runs);
+    /// Appends one bit for each cluster of the range, first lowest, up to a whole word: set for those that an instance
+    /// shows. It may keep what is not seen, never leave out what is.
+    void test(const ClusterRange& range, const glm::dmat4& world_from_object, std::vector<std::uint64_t>& shown);
+
+    /// Appends the runs of a part.
+    /// @param shown      bits of test() for a range that holds the part's
+    /// @param first_bit  of the part's clusters
+    void append_runs(const ClusterRange& part, std::span<const std::uint64_t> shown, std::size_t first_bit,
+                     std::vector<IndexRun>& runs) const;
 
     [[nodiscard]] ClusterCounters& counters() { return counters_; }
 
@@ -92,6 +109,8 @@ public:
     [[nodiscard]] const View& view() const { return view_; }
 
 private:
+    [[nodiscard]] ClusterPlacement placement(const glm::dmat4& world_from_object) const;
+
     std::vector<scene::Bounds> bounds_;         ///< object space
     std::vector<Cone> cones_;                   ///< the same clusters
     std::vector<std::uint32_t> first_indices_;  ///< of each cluster in its part
@@ -99,7 +118,6 @@ private:
     BoxList boxes_;
     std::vector<float> cone_rows_;
     std::size_t cone_stride_ = 0;
-    std::vector<std::uint8_t> drawn_;
     View view_;
     glm::dvec3 eye_world_{0.0};
     double reveal_margin_m_ = 0.0;

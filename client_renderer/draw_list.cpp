@@ -18,6 +18,15 @@ double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
     return glm::distance(place, glm::clamp(place, box.min, box.max));
 }
 
+/// The range of both and of what lies between.
+ClusterRange joined(const ClusterRange& a, const ClusterRange& b) {
+    if (a.count == 0) return b;
+    if (b.count == 0) return a;
+    const std::uint32_t first = std::min(a.first, b.first);
+    const std::uint32_t end = std::max(a.first + a.count, b.first + b.count);
+    return {first, end - first, glm::max(a.reach_object, b.reach_object)};
+}
+
 }  // namespace
 
 DrawList::DrawList(const PlacedInstances& placed, DrawOrder order) : placed_{placed}, order_{order} {
@@ -26,10 +35,12 @@ DrawList::DrawList(const PlacedInstances& placed, DrawOrder order) : placed_{pla
     }
 }
 
-void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& camera) {
+void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& camera, Clusters* clusters) {
     const glm::dvec3& eye_world = camera.world_from_eye.position_m;
     packed_.clear();
     placed_of_packed_.clear();
+    shown_of_packed_.clear();
+    shown_.clear();
     for (auto& zone : visible_) {
         for (auto& ranges : zone) std::ranges::fill(ranges, VisibleRange{});
     }
@@ -40,13 +51,14 @@ void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& cam
         const auto zone =
             static_cast<std::size_t>(std::ranges::upper_bound(kZoneEnds_m, distance_m) - kZoneEnds_m.begin());
         collected_[zone][placed.mirrored ? 1 : 0].push_back(visible[i]);
-        const int mesh = placed.instance->mesh;
-        const bool last_of_mesh = i + 1 == visible.size() || placed_[visible[i + 1]].instance->mesh != mesh;
-        if (last_of_mesh) end_mesh(static_cast<std::size_t>(mesh), eye_world);
+        const int mesh = placed.mesh;
+        const bool last_of_mesh = i + 1 == visible.size() || placed_[visible[i + 1]].mesh != mesh;
+        if (last_of_mesh) end_mesh(static_cast<std::size_t>(mesh), eye_world, clusters);
     }
 }
 
-void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world) {
+void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world, Clusters* clusters) {
+    const bool by_clusters = clusters != nullptr && clusters_of_meshes_[mesh].count > 0;
     for (std::size_t zone = 0; zone < kZones; ++zone) {
         for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
             std::vector<std::uint32_t>& collected = collected_[zone][mirrored];
@@ -54,8 +66,10 @@ void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world) {
                                               static_cast<std::uint32_t>(collected.size())};
             for (const std::uint32_t index : collected) {
                 const PlacedInstance& placed = placed_[index];
-                packed_.push_back(packed_instance(placed.world_from_object, eye_world, placed.instance->mover));
+                packed_.push_back(packed_instance(placed.world_from_object, eye_world, placed.mover));
                 placed_of_packed_.push_back(index);
+                shown_of_packed_.push_back(static_cast<std::uint32_t>(shown_.size()));
+                if (by_clusters) clusters->test(clusters_of_meshes_[mesh], placed.world_from_object, shown_);
             }
             collected.clear();
         }
@@ -64,14 +78,28 @@ void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world) {
 
 void DrawList::build(std::span<const std::uint32_t> visible, const Camera& camera,
                      std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters) {
-    collect(visible, camera);
+    if (clusters.clusters != nullptr) {
+        clusters.clusters->begin(clusters.view);
+        find_clusters_of_meshes(batches);
+    }
+    collect(visible, camera, clusters.clusters);
     commands_.clear();
     ranges_.clear();
     triangles_drawn_ = 0;
     states_.clear();
-    if (clusters.clusters != nullptr) clusters.clusters->begin(clusters.view);
     if (!order_.grouped) return append_by_distance(camera, batches, clusters);
     for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches, clusters);
+}
+
+void DrawList::find_clusters_of_meshes(std::span<const std::vector<MeshPart>> batches) {
+    if (!clusters_of_meshes_.empty()) return;
+    clusters_of_meshes_.resize(placed_.scene().meshes.size());
+    for (const std::vector<MeshPart>& parts : batches) {
+        for (const MeshPart& part : parts) {
+            ClusterRange& mesh = clusters_of_meshes_[static_cast<std::size_t>(part.mesh)];
+            mesh = joined(mesh, part.clusters);
+        }
+    }
 }
 
 void DrawList::append_by_distance(const Camera& camera, std::span<const std::vector<MeshPart>> batches,
@@ -92,7 +120,7 @@ void DrawList::append_by_distance(const Camera& camera, std::span<const std::vec
     }
     for (const auto& [distance_m, packed] : by_distance_) {
         const PlacedInstance& placed = placed_[placed_of_packed_[packed]];
-        for (const auto& [batch, part] : parts_of_meshes_[static_cast<std::size_t>(placed.instance->mesh)]) {
+        for (const auto& [batch, part] : parts_of_meshes_[static_cast<std::size_t>(placed.mesh)]) {
             append_part(part, {packed, 1}, clusters);
             states_.resize(commands_.size(), 2 * batch + (placed.mirrored ? 1 : 0));
         }
@@ -122,7 +150,9 @@ void DrawList::append_part(const MeshPart& part, const VisibleRange& visible, co
     }
     for (std::uint32_t i = visible.first; i < visible.first + visible.count; ++i) {
         runs_.clear();
-        clusters.clusters->append_runs(part.clusters, placed_[placed_of_packed_[i]].world_from_object, runs_);
+        const std::uint32_t first_of_mesh = clusters_of_meshes_[static_cast<std::size_t>(part.mesh)].first;
+        clusters.clusters->append_runs(part.clusters, std::span{shown_}.subspan(shown_of_packed_[i]),
+                                       part.clusters.first - first_of_mesh, runs_);
         for (const IndexRun& run : runs_) {
             commands_.push_back({run.count, 1, part.first_index + run.first, part.base_vertex, i});
             triangles_drawn_ += run.count / 3;

@@ -79,8 +79,9 @@ private:
         std::uint32_t count = 0;
     };
 
-    void collect(std::span<const std::uint32_t> visible, const Camera& camera);
-    void end_mesh(std::size_t mesh, const glm::dvec3& eye_world);
+    void collect(std::span<const std::uint32_t> visible, const Camera& camera, Clusters* clusters);
+    void end_mesh(std::size_t mesh, const glm::dvec3& eye_world, Clusters* clusters);
+    void find_clusters_of_meshes(std::span<const std::vector<MeshPart>> batches);
     void append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters);
     void append_part(const MeshPart& part, const VisibleRange& visible, const ClusterUse& clusters);
     void append_by_distance(const Camera& camera, std::span<const std::vector<MeshPart>> batches,
@@ -95,7 +96,10 @@ private:
     static constexpr std::size_t kZones = kZoneEnds_m.size() + 1;
     std::array<std::array<std::vector<VisibleRange>, 2>, kZones> visible_;  ///< by mesh; [1] the mirrored ones
     std::vector<PackedInstance> packed_;
-    std::vector<std::uint32_t> placed_of_packed_;                              ///< indices into placed_
+    std::vector<std::uint32_t> placed_of_packed_;  ///< indices into placed_
+    std::vector<std::uint32_t> shown_of_packed_;   ///< first words of shown_, where a mesh has clusters
+    std::vector<std::uint64_t> shown_;             ///< clusters, one bit each
+    std::vector<ClusterRange> clusters_of_meshes_;
     std::array<std::array<std::vector<std::uint32_t>, 2>, kZones> collected_;  ///< of the mesh being collected
     std::vector<IndexRun> runs_;
     std::vector<DrawCommand> commands_;

@@ -89,16 +89,16 @@ std::optional<ConvexSolid> usable(const Occluder& occluder, const Camera& camera
 Occluders::Occluders(const PlacedInstances& placed) {
     const scene::Scene& scene = placed.scene();
     std::vector<bool> used(scene.meshes.size(), false);
-    for (const PlacedInstance& instance : placed.all()) used[static_cast<std::size_t>(instance.instance->mesh)] = true;
+    for (const PlacedInstance& instance : placed.all()) used[static_cast<std::size_t>(instance.mesh)] = true;
     boxes_of_meshes_.resize(scene.meshes.size());
     for (std::size_t mesh = 0; mesh < scene.meshes.size(); ++mesh) {
         if (used[mesh]) boxes_of_meshes_[mesh] = scene::solid_boxes(scene.meshes[mesh], scene.materials);
     }
     for (std::uint32_t i = 0; i < placed.size(); ++i) {
-        const auto mesh = static_cast<std::size_t>(placed[i].instance->mesh);
+        const auto mesh = static_cast<std::size_t>(placed[i].mesh);
         for (std::size_t box = 0; box < boxes_of_meshes_[mesh].size(); ++box) {
             if (std::abs(glm::determinant(glm::dmat3{placed[i].world_from_object})) < 1e-12) continue;
-            if (placed[i].instance->mover != 0) {
+            if (placed[i].mover != 0) {
                 moving_.push_back({0, i, box});
             } else {
                 occluders_.push_back(placed_occluder(boxes_of_meshes_[mesh][box], placed[i]));
@@ -110,7 +110,7 @@ Occluders::Occluders(const PlacedInstances& placed) {
     for (Moving& moving : moving_) {
         moving.occluder = occluders_.size();
         moved_.push_back(static_cast<std::uint32_t>(moving.occluder));
-        const auto mesh = static_cast<std::size_t>(placed[moving.instance].instance->mesh);
+        const auto mesh = static_cast<std::size_t>(placed[moving.instance].mesh);
         occluders_.push_back(placed_occluder(boxes_of_meshes_[mesh][moving.box], placed[moving.instance]));
     }
     index();
@@ -120,7 +120,7 @@ void Occluders::move(const PlacedInstances& placed) {
     if (moving_.empty()) return;
     for (const Moving& moving : moving_) {
         const PlacedInstance& instance = placed[moving.instance];
-        const auto mesh = static_cast<std::size_t>(instance.instance->mesh);
+        const auto mesh = static_cast<std::size_t>(instance.mesh);
         occluders_[moving.occluder] = placed_occluder(boxes_of_meshes_[mesh][moving.box], instance);
         bounds_[moving.occluder] = occluders_[moving.occluder].bounds_world;
         const std::uint32_t place = bvh_->place_of(static_cast<std::uint32_t>(moving.occluder));

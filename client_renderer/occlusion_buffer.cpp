@@ -201,20 +201,27 @@ void draw_here(const ProjectedSolid& solid, glm::ivec2 rows, const DrawnImage& i
     }
 }
 
-void reduce_here(const float* pixels, int stride, const PixelRange& changed, float* tiles) {
+void reduce_here(const DrawnImage& image, const PixelRange& changed, OcclusionBuffer::Tile* tiles) {
     const DF d;
+    const DI di;
     const auto lanes = static_cast<int>(hn::Lanes(d));
     constexpr int kTileX = OcclusionBuffer::kTileX;
     constexpr int kTileY = OcclusionBuffer::kTileY;
-    const int tile_stride = stride / kTileX;
+    const int tile_stride = image.stride / kTileX;
     for (int ty = changed.low.y / kTileY; ty <= changed.high.y / kTileY; ++ty) {
         for (int tx = changed.low.x / kTileX; tx <= changed.high.x / kTileX; ++tx) {
             VF least = hn::Set(d, 1e30F);
+            VF most = hn::Zero(d);
             for (int y = 0; y < kTileY; ++y) {
-                const float* row = pixels + static_cast<std::ptrdiff_t>(ty * kTileY + y) * stride + tx * kTileX;
-                for (int x = 0; x < kTileX; x += lanes) least = hn::Min(least, hn::LoadU(d, row + x));
+                const std::ptrdiff_t row = static_cast<std::ptrdiff_t>(ty * kTileY + y) * image.stride + tx * kTileX;
+                for (std::ptrdiff_t at = row; at < row + kTileX; at += lanes) {
+                    const VF whole = hn::LoadU(d, image.whole + at);
+                    const MF in_parts = hn::RebindMask(d, hn::Ne(hn::LoadU(di, image.masks + at), hn::Zero(di)));
+                    least = hn::Min(least, whole);
+                    most = hn::Max(most, hn::Max(whole, hn::IfThenElseZero(in_parts, hn::LoadU(d, image.part + at))));
+                }
             }
-            tiles[ty * tile_stride + tx] = hn::GetLane(hn::MinOfLanes(d, least));
+            tiles[ty * tile_stride + tx] = {hn::GetLane(hn::MinOfLanes(d, least)), hn::GetLane(hn::MaxOfLanes(d, most))};
         }
     }
 }
@@ -223,15 +230,16 @@ OcclusionBuffer::Split split_here(const OcclusionBuffer& buffer, const BoxList& 
                                   std::span<const std::uint32_t> candidates, std::vector<std::uint32_t>& seen) {
     const std::size_t lanes = hn::Lanes(DF{});
     OcclusionBuffer::Split split;
-    Projected projected;
     for (std::size_t first = 0; first < candidates.size(); first += lanes) {
         const std::size_t count = std::min(lanes, candidates.size() - first);
-        project(gather_boxes(boxes, candidates.data() + first, count), buffer.view(), projected);
+        const BoxVector some = gather_boxes(boxes, candidates.data() + first, count);
+        const Projected projected = project(some, buffer.view(), lowest_bits(count));
         const std::uint32_t sampled = bits_of(meets_sample(projected, buffer.view()));
+        const StoredBoxes stored{projected};
         for (std::size_t i = 0; i < count; ++i) {
             if ((sampled >> i & 1U) == 0) {
                 ++split.between_samples;
-            } else if (is_hidden(buffer, lane(projected, i))) {
+            } else if (is_hidden(buffer, lane(stored, i))) {
                 ++split.hidden;
             } else {
                 seen.push_back(candidates[first + i]);
@@ -294,7 +302,7 @@ void OcclusionBuffer::begin(const Camera& camera) {
     pixels_.assign(pixels, 0.0F);
     parts_.resize(pixels);
     masks_.assign(pixels, 0);
-    tiles_.assign(static_cast<std::size_t>(stride_ / kTileX) * static_cast<std::size_t>(rows_ / kTileY), 0.0F);
+    tiles_.assign(static_cast<std::size_t>(stride_ / kTileX) * static_cast<std::size_t>(rows_ / kTileY), Tile{});
 
     const glm::dmat3 axes = glm::mat3_cast(camera.world_from_eye.orientation);
     const FovTangents& fov = camera.fov;
@@ -314,6 +322,7 @@ void OcclusionBuffer::begin(const Camera& camera) {
         view_.distance[k] = static_cast<float>(forward[i]);
     }
     view_.near_m = static_cast<float>(camera.near_m);
+    view_.size_px = {static_cast<float>(size_px_.x), static_cast<float>(size_px_.y)};
     view_.samples_per_px = {static_cast<float>(camera.size_px.x) / static_cast<float>(size_px_.x),
                             static_cast<float>(camera.size_px.y) / static_cast<float>(size_px_.y)};
 }
@@ -381,7 +390,7 @@ void OcclusionBuffer::add(const ConvexSolid& solid, int first_row, int last_row,
     const DrawnImage image{size_px_, stride_, pixels_.data(), parts_.data(), masks_.data()};
     HWY_DYNAMIC_DISPATCH(draw_here)(projected, {first_row, last_row}, image, drawn);
     if (drawn.high.y < 0) return;
-    HWY_DYNAMIC_DISPATCH(reduce_here)(pixels_.data(), stride_, drawn, tiles_.data());
+    HWY_DYNAMIC_DISPATCH(reduce_here)(image, drawn, tiles_.data());
 }
 
 OcclusionBuffer::Split OcclusionBuffer::split(const BoxList& boxes, std::span<const std::uint32_t> candidates,

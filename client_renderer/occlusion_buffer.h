@@ -59,7 +59,12 @@ public:
     [[nodiscard]] const std::int32_t* masks() const { return masks_.data(); }
     [[nodiscard]] const float* parts() const { return parts_.data(); }
     [[nodiscard]] int stride() const { return stride_; }
-    [[nodiscard]] const float* tiles() const { return tiles_.data(); }
+    /// Reverse distances within a tile.
+    struct Tile {
+        float farthest = 0.0F;  ///< beyond it the whole tile hides
+        float nearest = 0.0F;   ///< before it nothing in the tile hides
+    };
+    [[nodiscard]] const Tile* tiles() const { return tiles_.data(); }
     [[nodiscard]] int tile_stride() const { return stride_ / kTileX; }
 
     /// A ray of the buffer: relative_at(x_px, y_px) = origin + x_px * per_px_x + y_px * per_px_y, at distance_m = 1.
@@ -76,6 +81,7 @@ public:
         std::array<float, 3> distance{};
         float near_m = 0.05F;
         std::array<float, 2> samples_per_px{1.0F, 1.0F};  ///< of the picture, on each axis
+        std::array<float, 2> size_px{};                   ///< of the buffer
     };
     [[nodiscard]] const View& view() const { return view_; }
 
@@ -91,7 +97,7 @@ private:
     std::vector<float> pixels_;
     std::vector<float> parts_;
     std::vector<std::int32_t> masks_;
-    std::vector<float> tiles_;
+    std::vector<Tile> tiles_;
 };
 
 }  // namespace lw

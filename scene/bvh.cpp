@@ -118,8 +118,7 @@ struct Bvh::Builder {
         const Bounds box = box_of(first, end);
         bvh.nodes_[node].min = rounded_down(box.min);
         bvh.nodes_[node].max = rounded_up(box.max);
-        bvh.first_items_[node] = first;
-        bvh.end_items_[node] = end;
+        bvh.items_[node] = {first, end};
         const std::uint32_t cut = end - first == 1 ? first : partition(first, end, box);
         if (cut == first) {
             bvh.nodes_[node].first = first;
@@ -133,8 +132,7 @@ struct Bvh::Builder {
         for (int i = 0; i < 2; ++i) {
             bvh.nodes_.emplace_back();
             bvh.parents_.push_back(node);
-            bvh.first_items_.push_back(0);
-            bvh.end_items_.push_back(0);
+            bvh.items_.emplace_back();
         }
         build(child, first, cut);
         build(child + 1, cut, end);
@@ -155,8 +153,7 @@ Bvh::Bvh(std::span<const Bounds> boxes, std::uint32_t leaf_size) {
     nodes_.reserve(order_.size());
     nodes_.emplace_back();
     parents_.push_back(kNone);
-    first_items_.push_back(0);
-    end_items_.push_back(0);
+    items_.emplace_back();
     builder.build(kRoot, 0, static_cast<std::uint32_t>(order_.size()));
     for (std::uint32_t i = 0; i < order_.size(); ++i) places_[order_[i]] = i;
 }

@@ -35,8 +35,8 @@ public:
     /// Items, leaf by leaf.
     [[nodiscard]] const std::vector<std::uint32_t>& order() const { return order_; }
     /// The items of a node's subtree: a range of order().
-    [[nodiscard]] std::uint32_t first_item(std::uint32_t node) const { return first_items_[node]; }
-    [[nodiscard]] std::uint32_t end_item(std::uint32_t node) const { return end_items_[node]; }
+    [[nodiscard]] std::uint32_t first_item(std::uint32_t node) const { return items_[node].first; }
+    [[nodiscard]] std::uint32_t end_item(std::uint32_t node) const { return items_[node].end; }
     [[nodiscard]] std::uint32_t parent(std::uint32_t node) const { return parents_[node]; }
     /// Where an item stands in order(), kNone for one left out.
     [[nodiscard]] std::uint32_t place_of(std::uint32_t item) const { return places_[item]; }
@@ -48,13 +48,16 @@ public:
 
 private:
     struct Builder;
+    struct ItemRange {
+        std::uint32_t first = 0;
+        std::uint32_t end = 0;
+    };
     [[nodiscard]] bool fit(std::uint32_t node, std::span<const Bounds> boxes);
 
     std::vector<BvhNode> nodes_;
     std::vector<std::uint32_t> order_;
     std::vector<std::uint32_t> parents_;
-    std::vector<std::uint32_t> first_items_;
-    std::vector<std::uint32_t> end_items_;
+    std::vector<ItemRange> items_;  ///< by node
     std::vector<std::uint32_t> places_;
     std::vector<std::uint32_t> leaves_;  ///< by item
 };

@@ -10,6 +10,7 @@
 #include <bit>
 
 #include "client_renderer/box_kernels.h"
+#include "client_renderer/fetch_lines.h"
 #include "core/check.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -65,6 +66,7 @@ public:
         while (depth > 0) {
             const Entry entry = stack[--depth];
             const scene::BvhNode& node = bvh_.nodes()[entry.node];
+            fetch_inside(node);
             ++counters_.nodes;
             unsigned planes = entry.planes;
             if (planes != 0) {
@@ -95,6 +97,15 @@ private:
         std::uint32_t node;
         unsigned planes;
     };
+
+    /// What comes next if the node is not left out.
+    void fetch_inside(const scene::BvhNode& node) const {
+        if (node.count == 0) {
+            fetch_lines(&bvh_.nodes()[node.first]);
+        } else {
+            for (int row = 0; row < 6; ++row) fetch_lines(boxes_.row(row) + node.first);
+        }
+    }
 
     void take(std::uint32_t first, std::uint32_t end) {
         const auto begin = bvh_.order().begin();

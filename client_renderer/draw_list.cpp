@@ -2,17 +2,14 @@
 
 #include <algorithm>
 
+#include "client_renderer/fetch_lines.h"
+
 namespace lw {
 
 namespace {
 
 // What is seen lies scattered over a large scene: each object would be waited for.
 constexpr std::size_t kAhead = 8;
-
-void fetch(const PlacedInstance& placed) {
-    const auto* bytes = reinterpret_cast<const char*>(&placed);
-    for (std::size_t line = 0; line < sizeof(PlacedInstance); line += 64) __builtin_prefetch(bytes + line);
-}
 
 double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
     return glm::distance(place, glm::clamp(place, box.min, box.max));
@@ -45,7 +42,7 @@ void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& cam
         for (auto& ranges : zone) std::ranges::fill(ranges, VisibleRange{});
     }
     for (std::size_t i = 0; i < visible.size(); ++i) {
-        if (i + kAhead < visible.size()) fetch(placed_[visible[i + kAhead]]);
+        if (i + kAhead < visible.size()) fetch_lines(&placed_[visible[i + kAhead]]);
         const PlacedInstance& placed = placed_[visible[i]];
         const double distance_m = distance_to_box_m(eye_world, placed.bounds_world);
         const auto zone =

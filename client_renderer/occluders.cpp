@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "client_renderer/fetch_lines.h"
 #include "client_renderer/occluder_rows.h"
 
 namespace lw {
@@ -159,8 +160,22 @@ void Occluders::index() {
 void Occluders::offer(const Query& query, const Item& item, std::uint32_t place) {
     const float score = score_of(item.area, item.min, item.max, query.eye_world);
     if (score < query.least_score || !is_in_view(query.frustum, item.min, item.max)) return;
+    fetch(place);
     candidates_.push_back(candidate_of(score, place));
     std::ranges::push_heap(candidates_);
+}
+
+void Occluders::fetch(std::uint32_t place) const {
+    if ((place & kNodeBit) == 0) {
+        fetch_lines(&occluders_[items_[place].index]);
+        return;
+    }
+    const scene::BvhNode& node = bvh_->nodes()[place & ~kNodeBit];
+    if (node.count == 0) {
+        fetch_lines(&bvh_->nodes()[node.first]);
+    } else {
+        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) fetch_lines(&items_[i]);
+    }
 }
 
 void Occluders::offer_inside(const Query& query, std::uint32_t node) {

@@ -68,6 +68,7 @@ private:
     [[nodiscard]] Item item_of(std::uint32_t occluder) const;
     void offer(const Query& query, const Item& item, std::uint32_t place);
     void offer_inside(const Query& query, std::uint32_t node);
+    void fetch(std::uint32_t place) const;
     void index();
 
     std::vector<std::vector<scene::SolidBox>> boxes_of_meshes_;

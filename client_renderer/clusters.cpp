@@ -84,7 +84,7 @@ HWY_INLINE MF worth_a_test(const Projected& projected) {
 class InstanceTest {
 public:
     InstanceTest(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
-             ClusterCounters& counters)
+                 ClusterCounters& counters)
         : clusters_{clusters},
           view_{clusters.view()},
           placement_{placement},
@@ -270,8 +270,7 @@ ClusterPlacement Clusters::placement(const glm::dmat4& world_from_object) const 
     return placement;
 }
 
-void Clusters::test(const ClusterRange& range, const glm::dmat4& world_from_object,
-                    std::vector<std::uint64_t>& shown) {
+void Clusters::test(const ClusterRange& range, const glm::dmat4& world_from_object, std::vector<std::uint64_t>& shown) {
     const std::size_t first_word = shown.size();
     shown.resize(first_word + (range.count + 63) / 64, 0);
     counters_.tested += range.count;

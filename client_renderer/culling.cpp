@@ -50,8 +50,12 @@ const std::vector<std::uint32_t>& Culling::visible(const Camera& camera) {
 }
 
 ClusterView Culling::cluster_view(const Camera& camera) const {
-    return {frustum_of(camera), camera.world_from_eye.position_m, settings_.reveal_margin_m, buffer_.view(),
-            counters_.occluders > 0 ? &buffer_ : nullptr, least_size_per_distance(camera)};
+    return {frustum_of(camera),
+            camera.world_from_eye.position_m,
+            settings_.reveal_margin_m,
+            buffer_.view(),
+            counters_.occluders > 0 ? &buffer_ : nullptr,
+            least_size_per_distance(camera)};
 }
 
 double Culling::least_size_per_distance(const Camera& camera) const {

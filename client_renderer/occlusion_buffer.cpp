@@ -221,7 +221,8 @@ void reduce_here(const DrawnImage& image, const PixelRange& changed, OcclusionBu
                     most = hn::Max(most, hn::Max(whole, hn::IfThenElseZero(in_parts, hn::LoadU(d, image.part + at))));
                 }
             }
-            tiles[ty * tile_stride + tx] = {hn::GetLane(hn::MinOfLanes(d, least)), hn::GetLane(hn::MaxOfLanes(d, most))};
+            tiles[ty * tile_stride + tx] = {hn::GetLane(hn::MinOfLanes(d, least)),
+                                            hn::GetLane(hn::MaxOfLanes(d, most))};
         }
     }
 }

@@ -11,7 +11,7 @@ namespace lw {
 
 struct PlacedInstance {
     const scene::Instance* instance = nullptr;
-    int mesh = 0;        ///< the instance's, as the mover: what every frame asks for is in one place
+    int mesh = 0;  ///< the instance's, as the mover: what every frame asks for is in one place
     ObjectId mover = 0;
     glm::dmat4 world_from_object{1.0};
     scene::Bounds bounds_world;

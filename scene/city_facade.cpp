@@ -41,12 +41,36 @@ void add_ring(MeshBuilder& builder, const Opening& o, double inset, double z) {
     }
 }
 
-/// The four inward faces of a hole between depths z_out and z_in.
-void add_reveal(MeshBuilder& builder, const Opening& o, double z_out, double z_in) {
-    builder.polygon({{o.x0, o.y0, z_out}, {o.x0, o.y0, z_in}, {o.x0, o.y1, z_in}, {o.x0, o.y1, z_out}});
-    builder.polygon({{o.x1, o.y0, z_in}, {o.x1, o.y0, z_out}, {o.x1, o.y1, z_out}, {o.x1, o.y1, z_in}});
-    builder.polygon({{o.x0, o.y0, z_out}, {o.x1, o.y0, z_out}, {o.x1, o.y0, z_in}, {o.x0, o.y0, z_in}});
-    builder.polygon({{o.x0, o.y1, z_in}, {o.x1, o.y1, z_in}, {o.x1, o.y1, z_out}, {o.x0, o.y1, z_out}});
+/// `low`, the cuts between it and `high`, and `high`.
+std::vector<double> steps_between(double low, double high, std::span<const double> cuts) {
+    std::vector<double> steps{low};
+    for (const double cut : cuts) {
+        if (cut > low + 1e-6 && cut < high - 1e-6) steps.push_back(cut);
+    }
+    steps.push_back(high);
+    return steps;
+}
+
+/// The four inward faces of a hole between depths z_out and z_in; their outer edges meet the wall's corners.
+void add_reveal(MeshBuilder& builder, const Opening& o, double z_out, double z_in, const WallCuts& wall = {}) {
+    const auto upright = [](double x, double z, std::span<const double> ys) {
+        std::vector<glm::dvec3> line;
+        for (const double y : ys) line.emplace_back(x, y, z);
+        return line;
+    };
+    const auto level = [](double y, double z, std::span<const double> xs) {
+        std::vector<glm::dvec3> line;
+        for (const double x : xs) line.emplace_back(x, y, z);
+        return line;
+    };
+    const std::vector<double> xs = steps_between(o.x0, o.x1, wall.xs);
+    const std::vector<double> ys = steps_between(o.y0, o.y1, wall.ys);
+    const std::array<double, 2> ends_x{o.x0, o.x1};
+    const std::array<double, 2> ends_y{o.y0, o.y1};
+    builder.strip(upright(o.x0, z_out, ys), upright(o.x0, z_in, ends_y), {1.0, 0.0, 0.0});
+    builder.strip(upright(o.x1, z_in, ends_y), upright(o.x1, z_out, ys), {-1.0, 0.0, 0.0});
+    builder.strip(level(o.y0, z_in, ends_x), level(o.y0, z_out, xs), {0.0, 1.0, 0.0});
+    builder.strip(level(o.y1, z_out, xs), level(o.y1, z_in, ends_x), {0.0, -1.0, 0.0});
 }
 
 void use_wall(MeshBuilder& builder, const BuildingStyle& style, double factor = 1.0) {
@@ -116,9 +140,10 @@ void add_shutter(MeshBuilder& builder, const BuildingStyle& style, double x0, do
     }
 }
 
-void add_door(MeshBuilder& builder, const BuildingStyle& style, const Opening& o, Random& random) {
+void add_door(MeshBuilder& builder, const BuildingStyle& style, const Opening& o, const WallCuts& wall,
+              Random& random) {
     use_wall(builder, style, 0.8);
-    add_reveal(builder, o, 0.0, -0.3);
+    add_reveal(builder, o, 0.0, -0.3, wall);
     const double head = o.y0 + 2.15;  // above it a light
     use_paint(builder, style.frame_colour);
     add_ring(builder, o, kFrame_m, -0.2);
@@ -181,9 +206,10 @@ void add_awning(MeshBuilder& builder, const BuildingStyle& style, const Opening&
     }
 }
 
-void add_shop_window(MeshBuilder& builder, const BuildingStyle& style, const Opening& o, bool awning, Random& random) {
+void add_shop_window(MeshBuilder& builder, const BuildingStyle& style, const Opening& o, const WallCuts& wall,
+                     bool awning, Random& random) {
     use_paint(builder, style.accent_colour);
-    add_reveal(builder, o, 0.0, -0.25);
+    add_reveal(builder, o, 0.0, -0.25, wall);
     add_ring(builder, o, 0.08, -0.06);
     const double riser = o.y0 + 0.55;
     builder.box({o.x0 + 0.08, o.y0 + 0.08, -0.2}, {o.x1 - 0.08, riser, -0.04}, kTop | kFront);
@@ -256,6 +282,18 @@ std::vector<Opening> plain_openings(const BuildingStyle& style, double width_m, 
     return openings;
 }
 
+/// Of all walls of a house, which meet at its corners.
+std::vector<double> heights_of_openings(const BuildingStyle& style) {
+    std::vector<double> heights;
+    for (const int door_column : {0, style.columns - 1}) {
+        for (const Opening& o : front_openings(style, style.width_m, door_column)) {
+            heights.insert(heights.end(), {o.y0, o.y1});
+        }
+    }
+    for (const Opening& o : plain_openings(style, style.width_m, 1)) heights.insert(heights.end(), {o.y0, o.y1});
+    return sorted_cuts(std::move(heights));
+}
+
 /// A band along the wall between y0 and y1, interrupted where an opening is.
 void add_band(MeshBuilder& builder, double width_m, double y0, double y1, double thick_m,
               std::span<const Opening> openings) {
@@ -292,38 +330,43 @@ void add_trims(MeshBuilder& builder, const BuildingStyle& style, double width_m,
 
 }  // namespace
 
-void add_wall(MeshBuilder& builder, double x0, double x1, double y0, double y1, std::span<const Opening> openings) {
-    std::vector<double> xs{x0, x1};
-    std::vector<double> ys{y0, y1};
+WallCuts add_wall(MeshBuilder& builder, double x0, double x1, double y0, double y1, std::span<const Opening> openings,
+                  std::span<const double> edge_ys) {
+    WallCuts cuts{{x0, x1}, {y0, y1}};
     for (const Opening& o : openings) {
-        xs.insert(xs.end(), {o.x0, o.x1});
-        ys.insert(ys.end(), {o.y0, o.y1});
+        cuts.xs.insert(cuts.xs.end(), {o.x0, o.x1});
+        cuts.ys.insert(cuts.ys.end(), {o.y0, o.y1});
     }
-    xs = sorted_cuts(std::move(xs));
-    ys = sorted_cuts(std::move(ys));
-    std::vector<std::uint32_t> grid;
-    for (const double y : ys) {
-        for (const double x : xs) grid.push_back(builder.vertex({x, y, 0.0}, {0.0, 0.0, 1.0}));
-    }
-    for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
-        for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-            const double x = 0.5 * (xs[i] + xs[i + 1]);
-            const double y = 0.5 * (ys[j] + ys[j + 1]);
+    cuts.xs = sorted_cuts(std::move(cuts.xs));
+    cuts.ys = sorted_cuts(std::move(cuts.ys));
+    const std::size_t columns = cuts.xs.size() - 1;
+    const auto side = [&](std::size_t i, double low, double high) {
+        const bool is_edge = i == 0 || i == columns;
+        std::vector<glm::dvec3> line;
+        for (const double y : steps_between(low, high, is_edge ? edge_ys : std::span<const double>{})) {
+            line.emplace_back(cuts.xs[i], y, 0.0);
+        }
+        return line;
+    };
+    for (std::size_t j = 0; j + 1 < cuts.ys.size(); ++j) {
+        for (std::size_t i = 0; i < columns; ++i) {
+            const double x = 0.5 * (cuts.xs[i] + cuts.xs[i + 1]);
+            const double y = 0.5 * (cuts.ys[j] + cuts.ys[j + 1]);
             const bool open = std::any_of(openings.begin(), openings.end(), [&](const Opening& o) {
                 return x > o.x0 && x < o.x1 && y > o.y0 && y < o.y1;
             });
             if (open) continue;
-            const std::size_t corner = j * xs.size() + i;
-            builder.triangle(grid[corner], grid[corner + 1], grid[corner + xs.size() + 1]);
-            builder.triangle(grid[corner], grid[corner + xs.size() + 1], grid[corner + xs.size()]);
+            builder.strip(side(i, cuts.ys[j], cuts.ys[j + 1]), side(i + 1, cuts.ys[j], cuts.ys[j + 1]),
+                          {0.0, 0.0, 1.0});
         }
     }
+    return cuts;
 }
 
 void add_window(MeshBuilder& builder, const BuildingStyle& style, const Opening& opening, int panes_x, int panes_y,
-                Random& random) {
+                const WallCuts& wall, Random& random) {
     use_wall(builder, style, 0.82);
-    add_reveal(builder, opening, 0.0, -kReveal_m);
+    add_reveal(builder, opening, 0.0, -kReveal_m, wall);
     use_paint(builder, style.frame_colour);
     constexpr double kFront_m = -0.09;
     constexpr double kGlass_m = -0.14;
@@ -383,24 +426,25 @@ void add_facade(MeshBuilder& builder, const BuildingStyle& style, double width_m
     if (front) openings = front_openings(style, width_m, door_column);
     if (!front && windows) openings = plain_openings(style, width_m, 3);
     use_wall(builder, style);
-    add_wall(builder, -0.5 * width_m, 0.5 * width_m, 0.0, style.eaves_height_m(), openings);
+    const WallCuts wall = add_wall(builder, -0.5 * width_m, 0.5 * width_m, 0.0, style.eaves_height_m(), openings,
+                                   heights_of_openings(style));
     add_trims(builder, style, width_m, front, openings);
     const bool awnings = random.chance(0.7);
     for (const Opening& o : openings) {
         switch (o.kind) {
             case OpeningKind::door:
-                add_door(builder, style, o, random);
+                add_door(builder, style, o, wall, random);
                 break;
             case OpeningKind::shop_window:
-                add_shop_window(builder, style, o, awnings, random);
+                add_shop_window(builder, style, o, wall, awnings, random);
                 break;
             case OpeningKind::balcony_door:
-                add_window(builder, style, o, 2, 2, random);
+                add_window(builder, style, o, 2, 2, wall, random);
                 add_surround(builder, style, o);
                 add_balcony(builder, style, 0.5 * (o.x0 + o.x1), o.y0 - 0.02, 2.5);
                 break;
             case OpeningKind::window:
-                add_window(builder, style, o, 2, front ? 3 : 2, random);
+                add_window(builder, style, o, 2, front ? 3 : 2, wall, random);
                 add_sill(builder, style, o);
                 if (front && style.shutters) {
                     const double leaf = 0.5 * (o.x1 - o.x0);

@@ -3,6 +3,7 @@
 /// z outward, the wall's surface at z = 0.
 
 #include <span>
+#include <vector>
 
 #include "scene/city_building.h"
 
@@ -19,12 +20,21 @@ struct Opening {
     OpeningKind kind = OpeningKind::window;
 };
 
-/// The wall's surface from (x0, y0) to (x1, y1) around its openings, without T-junctions.
-void add_wall(MeshBuilder& builder, double x0, double x1, double y0, double y1, std::span<const Opening> openings);
+/// Where a wall has corners, ascending: what borders on it has them too, so that no crack opens between.
+struct WallCuts {
+    std::vector<double> xs;
+    std::vector<double> ys;
+};
 
-/// Reveal, frame, bars, glass and sill. `panes_x`, `panes_y`: how the bars divide it.
+/// The wall's surface from (x0, y0) to (x1, y1) around its openings, without T-junctions.
+/// @param edge_ys  where the walls beside it have corners on its upright edges
+/// @return  where it has corners
+WallCuts add_wall(MeshBuilder& builder, double x0, double x1, double y0, double y1, std::span<const Opening> openings,
+                  std::span<const double> edge_ys = {});
+
+/// Reveal, frame, bars, glass and sill. `panes_x`, `panes_y`: how the bars divide it. `wall`: the one it is in.
 void add_window(MeshBuilder& builder, const BuildingStyle& style, const Opening& opening, int panes_x, int panes_y,
-                Random& random);
+                const WallCuts& wall, Random& random);
 
 /// A whole side of a house of `width_m`: wall, openings, trims, and on the front door, shop and balconies.
 void add_facade(MeshBuilder& builder, const BuildingStyle& style, double width_m, bool front, bool windows,

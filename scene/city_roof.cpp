@@ -63,8 +63,8 @@ void add_dormer(MeshBuilder& builder, const BuildingStyle& style, double x, doub
     const Opening opening{-0.5, 0.5, base + 0.22, top - 0.08, OpeningKind::window};
     builder.use_material(style.wall, texture_size_m(style.wall));
     builder.use_colour(style.wall_colour);
-    add_wall(builder, -kHalf, kHalf, base - 0.3, top, std::span{&opening, 1});
-    add_window(builder, style, opening, 2, 2, random);
+    const WallCuts wall = add_wall(builder, -kHalf, kHalf, base - 0.3, top, std::span{&opening, 1});
+    add_window(builder, style, opening, 2, 2, wall, random);
     use_trim(builder, style.trim_colour);
     builder.box({-0.62, base + 0.14, -0.1}, {0.62, base + 0.22, 0.1}, kNoBack);
     builder.box({-kHalf - 0.1, top - 0.06, 0.0}, {kHalf + 0.1, top + 0.04, 0.08}, kNoBack);
@@ -148,7 +148,7 @@ void add_stepped_gable(MeshBuilder& builder, const BuildingStyle& style, double 
     if (window) cut.push_back(attic);
     builder.use_material(style.wall, texture_size_m(style.wall));
     builder.use_colour(style.wall_colour);
-    add_wall(builder, -half, half, eaves - 0.2, top, cut);
+    const WallCuts wall = add_wall(builder, -half, half, eaves - 0.2, top, cut);
     for (int i = 0; i < kSteps; ++i) {
         const double x = outer_x(i);
         const double low = i == 0 ? eaves - 0.2 : top_of(i - 1);
@@ -161,7 +161,7 @@ void add_stepped_gable(MeshBuilder& builder, const BuildingStyle& style, double 
         builder.box({inner, top_of(i), -kThick_m - 0.05}, {x + 0.05, top_of(i) + 0.1, 0.07});
     }
     if (!window) return;
-    add_window(builder, style, attic, 2, 2, random);
+    add_window(builder, style, attic, 2, 2, wall, random);
     use_trim(builder, style.trim_colour);
     builder.box({attic.x0 - 0.12, attic.y0 - 0.1, -0.1}, {attic.x1 + 0.12, attic.y0, 0.12}, kNoBack);
     builder.box({attic.x0 - 0.12, attic.y1, 0.0}, {attic.x1 + 0.12, attic.y1 + 0.18, 0.08}, kNoBack);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace lw::scene {
 
@@ -53,24 +54,24 @@ std::vector<double> steps_between(double low, double high, std::span<const doubl
 
 /// The four inward faces of a hole between depths z_out and z_in; their outer edges meet the wall's corners.
 void add_reveal(MeshBuilder& builder, const Opening& o, double z_out, double z_in, const WallCuts& wall = {}) {
-    const auto upright = [](double x, double z, std::span<const double> ys) {
-        std::vector<glm::dvec3> line;
-        for (const double y : ys) line.emplace_back(x, y, z);
+    const auto upright = [&](double x, double z, std::span<const double> ys, double normal_x) {
+        std::vector<std::uint32_t> line;
+        for (const double y : ys) line.push_back(builder.vertex({x, y, z}, {normal_x, 0.0, 0.0}));
         return line;
     };
-    const auto level = [](double y, double z, std::span<const double> xs) {
-        std::vector<glm::dvec3> line;
-        for (const double x : xs) line.emplace_back(x, y, z);
+    const auto level = [&](double y, double z, std::span<const double> xs, double normal_y) {
+        std::vector<std::uint32_t> line;
+        for (const double x : xs) line.push_back(builder.vertex({x, y, z}, {0.0, normal_y, 0.0}));
         return line;
     };
     const std::vector<double> xs = steps_between(o.x0, o.x1, wall.xs);
     const std::vector<double> ys = steps_between(o.y0, o.y1, wall.ys);
     const std::array<double, 2> ends_x{o.x0, o.x1};
     const std::array<double, 2> ends_y{o.y0, o.y1};
-    builder.strip(upright(o.x0, z_out, ys), upright(o.x0, z_in, ends_y), {1.0, 0.0, 0.0});
-    builder.strip(upright(o.x1, z_in, ends_y), upright(o.x1, z_out, ys), {-1.0, 0.0, 0.0});
-    builder.strip(level(o.y0, z_in, ends_x), level(o.y0, z_out, xs), {0.0, 1.0, 0.0});
-    builder.strip(level(o.y1, z_out, xs), level(o.y1, z_in, ends_x), {0.0, -1.0, 0.0});
+    builder.strip(upright(o.x0, z_out, ys, 1.0), upright(o.x0, z_in, ends_y, 1.0));
+    builder.strip(upright(o.x1, z_in, ends_y, -1.0), upright(o.x1, z_out, ys, -1.0));
+    builder.strip(level(o.y0, z_in, ends_x, 1.0), level(o.y0, z_out, xs, 1.0));
+    builder.strip(level(o.y1, z_out, xs, -1.0), level(o.y1, z_in, ends_x, -1.0));
 }
 
 void use_wall(MeshBuilder& builder, const BuildingStyle& style, double factor = 1.0) {
@@ -340,11 +341,17 @@ WallCuts add_wall(MeshBuilder& builder, double x0, double x1, double y0, double 
     cuts.xs = sorted_cuts(std::move(cuts.xs));
     cuts.ys = sorted_cuts(std::move(cuts.ys));
     const std::size_t columns = cuts.xs.size() - 1;
-    const auto side = [&](std::size_t i, double low, double high) {
-        const bool is_edge = i == 0 || i == columns;
-        std::vector<glm::dvec3> line;
+    std::map<std::pair<std::size_t, double>, std::uint32_t> corners;  // by column and height
+    const auto corner = [&](std::size_t column, double y) {
+        const auto [at, is_new] = corners.try_emplace({column, y});
+        if (is_new) at->second = builder.vertex({cuts.xs[column], y, 0.0}, {0.0, 0.0, 1.0});
+        return at->second;
+    };
+    const auto side = [&](std::size_t column, double low, double high) {
+        const bool is_edge = column == 0 || column == columns;
+        std::vector<std::uint32_t> line;
         for (const double y : steps_between(low, high, is_edge ? edge_ys : std::span<const double>{})) {
-            line.emplace_back(cuts.xs[i], y, 0.0);
+            line.push_back(corner(column, y));
         }
         return line;
     };
@@ -356,8 +363,7 @@ WallCuts add_wall(MeshBuilder& builder, double x0, double x1, double y0, double 
                 return x > o.x0 && x < o.x1 && y > o.y0 && y < o.y1;
             });
             if (open) continue;
-            builder.strip(side(i, cuts.ys[j], cuts.ys[j + 1]), side(i + 1, cuts.ys[j], cuts.ys[j + 1]),
-                          {0.0, 0.0, 1.0});
+            builder.strip(side(i, cuts.ys[j], cuts.ys[j + 1]), side(i + 1, cuts.ys[j], cuts.ys[j + 1]));
         }
     }
     return cuts;

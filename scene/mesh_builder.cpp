@@ -111,25 +111,21 @@ void MeshBuilder::polygon(std::span<const glm::dvec3> corners) {
     }
 }
 
-void MeshBuilder::strip(std::span<const glm::dvec3> left, std::span<const glm::dvec3> right, const glm::dvec3& normal) {
+void MeshBuilder::strip(std::span<const std::uint32_t> left, std::span<const std::uint32_t> right) {
     LW_CHECK(left.size() >= 2 && right.size() >= 2, "a strip lies between two lines");
-    const auto vertices = [&](std::span<const glm::dvec3> line) {
-        std::vector<std::uint32_t> indices;
-        for (const glm::dvec3& point : line) indices.push_back(vertex(point, normal));
-        return indices;
+    const auto share = [&](std::span<const std::uint32_t> line, std::size_t i) {
+        const auto place = [&](std::uint32_t index) { return vertices_[index].position_object; };
+        return glm::distance(place(line[i]), place(line.front())) /
+               glm::distance(place(line.back()), place(line.front()));
     };
-    const std::vector<std::uint32_t> l = vertices(left);
-    const std::vector<std::uint32_t> r = vertices(right);
-    const auto share = [](std::span<const glm::dvec3> line, std::size_t i) {
-        return glm::distance(line[i], line.front()) / glm::distance(line.back(), line.front());
-    };
-    for (std::size_t i = 0, j = 0; i + 1 < l.size() || j + 1 < r.size();) {
-        const bool step_right = i + 1 == l.size() || (j + 1 < r.size() && share(right, j + 1) <= share(left, i + 1));
+    for (std::size_t i = 0, j = 0; i + 1 < left.size() || j + 1 < right.size();) {
+        const bool step_right =
+            i + 1 == left.size() || (j + 1 < right.size() && share(right, j + 1) <= share(left, i + 1));
         if (step_right) {
-            triangle(l[i], r[j], r[j + 1]);
+            triangle(left[i], right[j], right[j + 1]);
             ++j;
         } else {
-            triangle(l[i], r[j], l[i + 1]);
+            triangle(left[i], right[j], left[i + 1]);
             ++i;
         }
     }

@@ -61,10 +61,10 @@ public:
     void polygon(std::span<const glm::dvec3> corners);
     void polygon(std::initializer_list<glm::dvec3> corners) { polygon(std::span{corners.begin(), corners.size()}); }
 
-    /// A flat strip between two lines of points in one plane; from its front, `right` lies to the right of `left` when
-    /// both lead up. Their points need not stand opposite each other: edges of neighbours can be met at all of their
-    /// corners, so that no crack opens between.
-    void strip(std::span<const glm::dvec3> left, std::span<const glm::dvec3> right, const glm::dvec3& normal);
+    /// A flat strip between two lines of vertices, at least two each; from its front, `right` lies to the right of
+    /// `left` when both lead up. Their vertices need not stand opposite each other: edges of neighbours can be met at
+    /// all of their corners, so that no crack opens between.
+    void strip(std::span<const std::uint32_t> left, std::span<const std::uint32_t> right);
 
     /// Axis-aligned in local space, min < max.
     void box(const glm::dvec3& min, const glm::dvec3& max, unsigned sides = kAllSides);

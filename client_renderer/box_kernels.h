@@ -83,24 +83,35 @@ HWY_INLINE BoxVector gather_boxes(const BoxList& boxes, const std::uint32_t* ind
             hn::GatherIndex(d, boxes.row(4), at), hn::GatherIndex(d, boxes.row(5), at)};
 }
 
+/// Of a vector of boxes from a plane, inside positive.
+struct PlaneDistance {
+    VF place;  ///< of the centres
+    VF reach;  ///< of the boxes beyond their centres
+    VF rounding;
+};
+
+HWY_INLINE PlaneDistance distance_of(const BoxVector& boxes, const FloatFrustum::Plane& plane) {
+    const DF d;
+    const VF nx = hn::Set(d, plane.x);
+    const VF ny = hn::Set(d, plane.y);
+    const VF nz = hn::Set(d, plane.z);
+    const VF w = hn::Set(d, plane.w);
+    const VF reach = hn::MulAdd(hn::Abs(nx), boxes.half_x,
+                                hn::MulAdd(hn::Abs(ny), boxes.half_y, hn::Mul(hn::Abs(nz), boxes.half_z)));
+    const VF place = hn::MulAdd(nx, boxes.centre_x, hn::MulAdd(ny, boxes.centre_y, hn::MulAdd(nz, boxes.centre_z, w)));
+    const VF size = hn::Add(hn::Add(hn::Abs(boxes.centre_x), hn::Abs(boxes.centre_y)),
+                            hn::Add(hn::Abs(boxes.centre_z), hn::Abs(w)));
+    return {place, reach, hn::Mul(hn::Set(d, kFrustumRounding), hn::Add(size, reach))};
+}
+
 /// Boxes that are not empty and not wholly outside one of the frustum's planes whose bit is set.
 HWY_INLINE MF in_frustum(const BoxVector& boxes, const FloatFrustum& frustum, unsigned planes) {
     const DF d;
     MF inside = hn::Ge(boxes.half_x, hn::Zero(d));
     for (; planes != 0; planes &= planes - 1) {
-        const FloatFrustum::Plane& plane = frustum.planes[static_cast<std::size_t>(__builtin_ctz(planes))];
-        const VF nx = hn::Set(d, plane.x);
-        const VF ny = hn::Set(d, plane.y);
-        const VF nz = hn::Set(d, plane.z);
-        const VF w = hn::Set(d, plane.w);
-        const VF reach = hn::MulAdd(hn::Abs(nx), boxes.half_x,
-                                    hn::MulAdd(hn::Abs(ny), boxes.half_y, hn::Mul(hn::Abs(nz), boxes.half_z)));
-        const VF place =
-            hn::MulAdd(nx, boxes.centre_x, hn::MulAdd(ny, boxes.centre_y, hn::MulAdd(nz, boxes.centre_z, w)));
-        const VF size = hn::Add(hn::Add(hn::Abs(boxes.centre_x), hn::Abs(boxes.centre_y)),
-                                hn::Add(hn::Abs(boxes.centre_z), hn::Abs(w)));
-        const VF allowed = hn::Mul(hn::Set(d, -kFrustumRounding), hn::Add(size, reach));
-        inside = hn::And(inside, hn::Ge(hn::Add(place, reach), allowed));
+        const PlaneDistance distance =
+            distance_of(boxes, frustum.planes[static_cast<std::size_t>(__builtin_ctz(planes))]);
+        inside = hn::And(inside, hn::Ge(hn::Add(distance.place, distance.reach), hn::Neg(distance.rounding)));
     }
     return inside;
 }
@@ -207,6 +218,13 @@ HWY_INLINE Projected project_corners(const Vector3& centre, const Vector3& half,
     return {x0, x1, y0, y1, hn::IfThenElse(behind, hn::Set(d, 1e30F), reverse)};
 }
 
+/// Lanes of `yes` where the mask is set, else of `no`: a box's rectangle does not depend on its neighbours.
+HWY_INLINE Projected chosen(MF mask, const Projected& yes, const Projected& no) {
+    return {hn::IfThenElse(mask, yes.x0, no.x0), hn::IfThenElse(mask, yes.x1, no.x1),
+            hn::IfThenElse(mask, yes.y0, no.y0), hn::IfThenElse(mask, yes.y1, no.y1),
+            hn::IfThenElse(mask, yes.reverse, no.reverse)};
+}
+
 /// @param lanes  bits of the boxes that count
 HWY_INLINE Projected project(const BoxVector& boxes, const OcclusionBuffer::View& view, std::uint32_t lanes) {
     const DF d;
@@ -224,9 +242,9 @@ HWY_INLINE Projected project(const BoxVector& boxes, const OcclusionBuffer::View
                               {view.distance[0], view.distance[1], view.distance[2], 0.0F},
                               {}};
     Projected projected;
-    const std::uint32_t far = bits_of(project_from_afar(centre, half, rows, view.near_m, projected));
-    if ((lanes & ~far) == 0) return projected;
-    return project_corners(centre, half, view);
+    const MF far = project_from_afar(centre, half, rows, view.near_m, projected);
+    if ((lanes & ~bits_of(far)) == 0) return projected;
+    return chosen(far, projected, project_corners(centre, half, view));
 }
 
 /// As arrays, to take boxes out of one by one.

@@ -23,8 +23,7 @@ constexpr std::size_t kMostDepth = 256;
 /// Bits of planes of `mask` that the box is not wholly inside of; kOutside when it is wholly outside one of them.
 constexpr unsigned kOutside = 0xFFU;
 
-HWY_INLINE unsigned planes_left(const scene::BvhNode& node, const FloatFrustum& frustum, unsigned mask,
-                                std::uint8_t& last_plane) {
+HWY_INLINE unsigned planes_left(const scene::BvhNode& node, const FloatFrustum& frustum, unsigned mask) {
     const glm::vec3 centre = 0.5F * (node.min + node.max);
     const glm::vec3 half = 0.5F * (node.max - node.min);
     unsigned left = mask;
@@ -38,111 +37,121 @@ HWY_INLINE unsigned planes_left(const scene::BvhNode& node, const FloatFrustum& 
         if (place - reach >= rounding) left &= ~(1U << p);
         return true;
     };
-    if ((mask >> last_plane & 1U) != 0 && !tests(last_plane)) return kOutside;
-    for (unsigned rest = mask & ~(1U << last_plane); rest != 0; rest &= rest - 1) {
-        const auto p = static_cast<unsigned>(std::countr_zero(rest));
-        if (!tests(p)) {
-            last_plane = static_cast<std::uint8_t>(p);
-            return kOutside;
-        }
+    for (unsigned rest = mask; rest != 0; rest &= rest - 1) {
+        if (!tests(static_cast<unsigned>(std::countr_zero(rest)))) return kOutside;
     }
     return left;
 }
 
+/// A vector of boxes against a frustum.
+struct InFrustum {
+    std::uint32_t not_outside = 0;            ///< bits of boxes
+    std::array<std::uint32_t, 5> crossing{};  ///< by plane: boxes that are not wholly inside
+
+    /// The planes that are still to be tested inside a box.
+    [[nodiscard]] unsigned planes_of(std::uint32_t box) const {
+        unsigned planes = 0;
+        for (unsigned p = 0; p < crossing.size(); ++p) planes |= (crossing[p] >> box & 1U) << p;
+        return planes;
+    }
+};
+
+HWY_INLINE InFrustum against(const BoxVector& boxes, const FloatFrustum& frustum, unsigned planes) {
+    const DF d;
+    InFrustum in;
+    MF not_outside = hn::Ge(boxes.half_x, hn::Zero(d));
+    for (; planes != 0; planes &= planes - 1) {
+        const auto p = static_cast<std::size_t>(std::countr_zero(planes));
+        const PlaneDistance distance = distance_of(boxes, frustum.planes[p]);
+        not_outside = hn::And(not_outside, hn::Ge(hn::Add(distance.place, distance.reach), hn::Neg(distance.rounding)));
+        in.crossing[p] = bits_of(hn::Lt(hn::Sub(distance.place, distance.reach), distance.rounding));
+    }
+    in.not_outside = bits_of(not_outside);
+    return in;
+}
+
 class Walk {
 public:
-    Walk(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters)
-        : bvh_{tree.bvh()},
-          boxes_{tree.boxes()},
-          last_planes_{tree.last_planes()},
-          query_{query},
-          seen_{seen},
-          counters_{counters} {}
+    Walk(const BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters)
+        : order_{tree.bvh().order()}, wide_{tree.wide()}, query_{query}, seen_{seen}, counters_{counters} {}
 
     void run() {
-        std::array<Entry, kMostDepth> stack;
-        std::size_t depth = 0;
-        stack[depth++] = {scene::Bvh::kRoot, FloatFrustum::kAllPlanes};
-        while (depth > 0) {
-            const Entry entry = stack[--depth];
-            const scene::BvhNode& node = bvh_.nodes()[entry.node];
-            fetch_inside(node);
+        stack_[depth_++] = {wide_.root(), FloatFrustum::kAllPlanes};
+        const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
+        while (depth_ > 0) {
+            const Entry entry = stack_[--depth_];
             ++counters_.nodes;
-            unsigned planes = entry.planes;
-            if (planes != 0) {
-                planes = planes_left(node, query_.frustum, planes, last_planes_[entry.node]);
-                if (planes == kOutside) {
-                    counters_.items_outside += bvh_.end_item(entry.node) - bvh_.first_item(entry.node);
-                    continue;
-                }
-            }
-            if (query_.occlusion != nullptr && hides(node)) {
-                counters_.items_hidden += bvh_.end_item(entry.node) - bvh_.first_item(entry.node);
-                continue;
-            }
-            const bool all_taken = planes == 0 && query_.occlusion == nullptr && !(query_.least_size_per_distance > 0);
-            if (all_taken) {
-                take(bvh_.first_item(entry.node), bvh_.end_item(entry.node));
-            } else if (node.count > 0) {
-                test(node.first, node.first + node.count, planes);
-            } else {
-                stack[depth++] = {node.first + 1, planes};
-                stack[depth++] = {node.first, planes};
+            for (std::uint32_t i = 0; i < entry.node.slot_count; i += lanes) {
+                visit(entry.node.first + i, lowest_bits(std::min(lanes, entry.node.slot_count - i)), entry.planes);
             }
         }
     }
 
 private:
     struct Entry {
-        std::uint32_t node;
+        WideBvh::Child node;
         unsigned planes;
     };
 
-    /// What comes next if the node is not left out.
-    void fetch_inside(const scene::BvhNode& node) const {
-        if (node.count == 0) {
-            fetch_lines(&bvh_.nodes()[node.first]);
-        } else {
-            for (int row = 0; row < 6; ++row) fetch_lines(boxes_.row(row) + node.first);
-        }
-    }
-
-    void take(std::uint32_t first, std::uint32_t end) {
-        const auto begin = bvh_.order().begin();
-        seen_.insert(seen_.end(), begin + first, begin + end);
-    }
-
-    [[nodiscard]] bool hides(const scene::BvhNode& node) const {
-        return is_hidden(*query_.occlusion, project_one(node.min, node.max, query_.occlusion->view()));
-    }
-
-    void test(std::uint32_t first, std::uint32_t end, unsigned planes) {
-        const DF d;
-        const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
-        for (std::uint32_t i = first; i < end; i += lanes) {
-            const std::uint32_t count = std::min(lanes, end - i);
-            const std::uint32_t all = lowest_bits(count);
-            const BoxVector boxes = load_boxes(boxes_, i);
-            counters_.items += count;
-            std::uint32_t bits = bits_of(in_frustum(boxes, query_.frustum, planes)) & all;
-            counters_.items_outside += static_cast<std::uint64_t>(std::popcount(all & ~bits));
-            if (query_.least_size_per_distance > 0) {
-                const std::uint32_t large =
-                    bits & bits_of(large_enough(boxes, query_.eye_world, query_.least_size_per_distance));
-                counters_.items_too_small += static_cast<std::uint64_t>(std::popcount(bits & ~large));
-                bits = large;
+    /// A vector of slots.
+    /// @param all  bits of those that there are
+    void visit(std::uint32_t first, std::uint32_t all, unsigned planes) {
+        const BoxVector boxes = load_boxes(wide_.boxes(), first);
+        const InFrustum in = against(boxes, query_.frustum, planes);
+        std::uint32_t bits = all & in.not_outside;
+        if (bits != all) counters_.items_outside += items_of(first, all & ~bits);
+        if (query_.occlusion != nullptr && bits != 0) bits = not_hidden(boxes, first, bits);
+        const bool by_size = query_.least_size_per_distance > 0;
+        const std::uint32_t large =
+            by_size ? bits_of(large_enough(boxes, query_.eye_world, query_.least_size_per_distance)) : bits;
+        for (; bits != 0; bits &= bits - 1) {
+            const auto at = static_cast<std::uint32_t>(std::countr_zero(bits));
+            const WideBvh::Child& child = wide_.children()[first + at];
+            if (child.is_item()) {
+                ++counters_.items;
+                if ((large >> at & 1U) == 0) {
+                    ++counters_.items_too_small;
+                } else {
+                    seen_.push_back(child.first);
+                }
+                continue;
             }
-            if (query_.occlusion != nullptr && bits != 0) bits = not_hidden(boxes, bits);
-            for (; bits != 0; bits &= bits - 1) seen_.push_back(bvh_.order()[i + std::countr_zero(bits)]);
+            const unsigned planes_left = in.planes_of(at);
+            if (planes_left == 0 && query_.occlusion == nullptr && !by_size) {
+                take(first + at);
+            } else {
+                push({child, planes_left});
+            }
         }
+    }
+
+    void push(const Entry& entry) {
+        for (int row = 0; row < 6; ++row) fetch_lines(wide_.boxes().row(row) + entry.node.first);
+        fetch_lines(wide_.children() + entry.node.first);
+        LW_CHECK(depth_ < stack_.size(), "the hierarchy is deeper than any of its size");
+        stack_[depth_++] = entry;
+    }
+
+    void take(std::uint32_t slot) {
+        const auto begin = order_.begin() + wide_.first_item(slot);
+        seen_.insert(seen_.end(), begin, begin + wide_.item_counts()[slot]);
+    }
+
+    /// Items in and under the slots whose bits are set.
+    [[nodiscard]] std::uint64_t items_of(std::uint32_t first, std::uint32_t bits) const {
+        std::uint64_t items = 0;
+        for (; bits != 0; bits &= bits - 1) {
+            items += wide_.item_counts()[first + static_cast<std::uint32_t>(std::countr_zero(bits))];
+        }
+        return items;
     }
 
     /// Those of the boxes whose bits are set that have a sample and are not hidden.
-    std::uint32_t not_hidden(const BoxVector& boxes, std::uint32_t bits) {
+    std::uint32_t not_hidden(const BoxVector& boxes, std::uint32_t first, std::uint32_t bits) {
         const OcclusionBuffer& buffer = *query_.occlusion;
         const Projected projected = project(boxes, buffer.view(), bits);
         const std::uint32_t sampled = bits & bits_of(meets_sample(projected, buffer.view()));
-        counters_.items_between_samples += static_cast<std::uint64_t>(std::popcount(bits & ~sampled));
+        counters_.items_between_samples += items_of(first, bits & ~sampled);
         if (sampled == 0) return 0;
         const StoredBoxes stored{projected};
         std::uint32_t seen = 0;
@@ -150,16 +159,17 @@ private:
             if (!is_hidden(buffer, lane(stored, static_cast<std::size_t>(std::countr_zero(rest)))))
                 seen |= rest & -rest;
         }
-        counters_.items_hidden += static_cast<std::uint64_t>(std::popcount(sampled & ~seen));
+        counters_.items_hidden += items_of(first, sampled & ~seen);
         return seen;
     }
 
-    const scene::Bvh& bvh_;
-    const BoxList& boxes_;
-    std::vector<std::uint8_t>& last_planes_;
+    const std::vector<std::uint32_t>& order_;
+    const WideBvh& wide_;
     const WalkQuery& query_;
     std::vector<std::uint32_t>& seen_;
     WalkCounters& counters_;
+    std::array<Entry, WideBvh::kMostChildren * kMostDepth> stack_;
+    std::size_t depth_ = 0;
 };
 
 void walk_here(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters) {
@@ -191,10 +201,7 @@ public:
             for (std::size_t f = 0; f < frusta_.size(); ++f) {
                 std::uint8_t& planes = entry.planes[f];
                 if (planes == kOutside) continue;
-                std::uint8_t first_plane = 0;
-                if (planes != 0) {
-                    planes = static_cast<std::uint8_t>(planes_left(node, frusta_[f], planes, first_plane));
-                }
+                if (planes != 0) planes = static_cast<std::uint8_t>(planes_left(node, frusta_[f], planes));
                 any = any || planes != kOutside;
                 tests_left = tests_left || (planes != kOutside && planes != 0);
             }
@@ -272,13 +279,14 @@ namespace lw {
 HWY_EXPORT(walk_here);
 HWY_EXPORT(walk_several_here);
 
-BoxTree::BoxTree(std::span<const scene::Bounds> boxes) : bvh_{boxes}, last_planes_(bvh_.nodes().size(), 0) {
+BoxTree::BoxTree(std::span<const scene::Bounds> boxes) : bvh_{boxes}, wide_{bvh_, boxes} {
     boxes_.resize(bvh_.order().size());
     for (std::size_t i = 0; i < bvh_.order().size(); ++i) boxes_.set(i, boxes[bvh_.order()[i]]);
 }
 
 void BoxTree::move(std::span<const std::uint32_t> moved, std::span<const scene::Bounds> boxes) {
     bvh_.refit(moved, boxes);
+    wide_.move(bvh_, moved, boxes);
     for (const std::uint32_t item : moved) {
         const std::uint32_t place = bvh_.place_of(item);
         if (place != scene::Bvh::kNone) boxes_.set(place, boxes[item]);

@@ -9,6 +9,7 @@
 #include "client_renderer/box_list.h"
 #include "client_renderer/frustum.h"
 #include "client_renderer/occlusion_buffer.h"
+#include "client_renderer/wide_bvh.h"
 #include "scene/bvh.h"
 
 namespace lw {
@@ -38,9 +39,9 @@ struct WalkQuery {
     float least_size_per_distance = 0.0F;
 };
 
-/// Boxes in a hierarchy with sixteen and fewer per leaf, one wide vector each. Plane masking: a plane that a node lies
-/// inside is not tested again below it; what lies inside all of them is taken without tests. Last plane first: the
-/// plane that rejected a node in the last walk is tried first (seed 002, section 19.4). One thread at a time.
+/// Boxes in a hierarchy whose nodes have up to sixteen children, tested together on a wide vector. Plane masking: a
+/// plane that a node lies inside is not tested again below it; what lies inside all of them is taken without tests
+/// (seed 002, section 19.4). One thread at a time.
 class BoxTree {
 public:
     static constexpr std::size_t kMostFrusta = 8;
@@ -61,13 +62,12 @@ public:
     [[nodiscard]] const scene::Bvh& bvh() const { return bvh_; }
     /// In the order of the hierarchy.
     [[nodiscard]] const BoxList& boxes() const { return boxes_; }
-    /// By node, for the walk.
-    [[nodiscard]] std::vector<std::uint8_t>& last_planes() { return last_planes_; }
+    [[nodiscard]] const WideBvh& wide() const { return wide_; }
 
 private:
     scene::Bvh bvh_;
-    BoxList boxes_;
-    std::vector<std::uint8_t> last_planes_;
+    WideBvh wide_;   ///< for one view
+    BoxList boxes_;  ///< for several
     WalkCounters counters_;
 };
 

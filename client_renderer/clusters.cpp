@@ -100,7 +100,7 @@ public:
         Projected projected;
         std::uint32_t bits = all;
         const MF far = project_from_afar(centre, half, rows_, view_.buffer_relative.near_m, projected);
-        if ((all & ~bits_of(far)) != 0) bits = keep_in_view(boxes, bits, projected);
+        if ((all & ~bits_of(far)) != 0) bits = keep_in_view(boxes, bits, far, projected);
         bits = kept(bits, in_picture(projected, view_.buffer_relative), counters_.outside);
         bits = kept(bits, meets_sample(projected, view_.buffer_relative), counters_.between_samples);
         if (bits == 0) return 0;
@@ -122,10 +122,11 @@ private:
     }
 
     /// Near the eye a rectangle around a cluster says little.
-    std::uint32_t keep_in_view(const BoxVector& boxes, std::uint32_t bits, Projected& projected) {
+    std::uint32_t keep_in_view(const BoxVector& boxes, std::uint32_t bits, MF far, Projected& projected) {
         const BoxVector relative = placed(boxes, placement_.relative_from_object_rows);
-        projected = project(relative, view_.buffer_relative, bits);
-        return kept(bits, in_frustum(relative, view_.frustum_relative, FloatFrustum::kAllPlanes), counters_.outside);
+        projected = chosen(far, projected, project(relative, view_.buffer_relative, bits));
+        const MF inside = in_frustum(relative, view_.frustum_relative, FloatFrustum::kAllPlanes);
+        return kept(bits, hn::Or(far, inside), counters_.outside);
     }
 
     HWY_INLINE std::uint32_t not_hidden(const Projected& projected, std::uint32_t bits) {

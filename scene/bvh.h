@@ -38,6 +38,7 @@ public:
     [[nodiscard]] std::uint32_t first_item(std::uint32_t node) const { return items_[node].first; }
     [[nodiscard]] std::uint32_t end_item(std::uint32_t node) const { return items_[node].end; }
     [[nodiscard]] std::uint32_t parent(std::uint32_t node) const { return parents_[node]; }
+    [[nodiscard]] std::uint32_t leaf_of(std::uint32_t item) const { return leaves_[item]; }
     /// Where an item stands in order(), kNone for one left out.
     [[nodiscard]] std::uint32_t place_of(std::uint32_t item) const { return places_[item]; }
 

@@ -422,6 +422,13 @@ HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const ProjectedBox& box
                         box.x0 - kSnapPx > static_cast<float>(buffer.size_px().x) ||
                         box.y0 - kSnapPx > static_cast<float>(buffer.size_px().y);
     if (beside) return true;
+    // Most of what is seen is seen in the middle.
+    const auto middle = [](float low, float high, int size) {
+        return static_cast<int>(std::clamp(0.5F * (low + high), 0.0F, static_cast<float>(size - 1)));
+    };
+    const std::ptrdiff_t at =
+        middle(box.y0, box.y1, buffer.size_px().y) * buffer.stride() + middle(box.x0, box.x1, buffer.size_px().x);
+    if (std::max(buffer.pixels()[at], buffer.parts()[at]) <= box.reverse) return false;
     // In parts of pixels.
     constexpr int kParts = OcclusionBuffer::kParts;
     const auto part_of = [](float px, int last) {

@@ -156,8 +156,9 @@ private:
         const StoredBoxes stored{projected};
         std::uint32_t seen = 0;
         for (std::uint32_t rest = sampled; rest != 0; rest &= rest - 1) {
-            if (!is_hidden(buffer, lane(stored, static_cast<std::size_t>(std::countr_zero(rest)))))
+            if (!is_hidden(buffer, lane(stored, static_cast<std::size_t>(std::countr_zero(rest))))) {
                 seen |= rest & -rest;
+            }
         }
         counters_.items_hidden += items_of(first, sampled & ~seen);
         return seen;

@@ -428,7 +428,8 @@ HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const ProjectedBox& box
     };
     const std::ptrdiff_t at =
         middle(box.y0, box.y1, buffer.size_px().y) * buffer.stride() + middle(box.x0, box.x1, buffer.size_px().x);
-    if (std::max(buffer.pixels()[at], buffer.parts()[at]) <= box.reverse) return false;
+    const bool part_hides = buffer.masks()[at] != 0 && buffer.parts()[at] > box.reverse;
+    if (buffer.pixels()[at] <= box.reverse && !part_hides) return false;
     // In parts of pixels.
     constexpr int kParts = OcclusionBuffer::kParts;
     const auto part_of = [](float px, int last) {

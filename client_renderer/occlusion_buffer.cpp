@@ -301,7 +301,7 @@ void OcclusionBuffer::begin(const Camera& camera) {
     rows_ = rounded_up(size_px_.y, kTileY);
     const std::size_t pixels = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(rows_) + 64;
     pixels_.assign(pixels, 0.0F);
-    parts_.assign(pixels, 0.0F);
+    parts_.resize(pixels);
     masks_.assign(pixels, 0);
     tiles_.assign(static_cast<std::size_t>(stride_ / kTileX) * static_cast<std::size_t>(rows_ / kTileY), Tile{});
 

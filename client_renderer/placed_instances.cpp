@@ -7,7 +7,7 @@ namespace lw {
 PlacedInstances::PlacedInstances(const scene::Scene& scene, const scene::SceneState& state) : scene_{scene} {
     placed_.reserve(scene.instances.size());
     for (const scene::Instance& instance : scene.instances)
-        placed_.push_back({&instance, instance.mesh, instance.mover, {}, {}, false});
+        placed_.push_back({&instance, instance.mesh, instance.mover, false, {}, {}});
     std::ranges::stable_sort(placed_, {}, &PlacedInstance::mesh);
     for (std::size_t i = 0; i < placed_.size(); ++i) {
         place(placed_[i], state);

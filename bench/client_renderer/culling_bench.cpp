@@ -109,6 +109,7 @@ void run(benchmark::State& state, const std::function<double(const Camera&)>& ms
     state.counters["clusters_outside"] = static_cast<double>(clusters.outside) / kFrames;
     state.counters["clusters_hidden"] = static_cast<double>(clusters.occluded) / kFrames;
     state.counters["clusters_between"] = static_cast<double>(clusters.between_samples) / kFrames;
+    state.counters["triangles"] = static_cast<double>(stage().draws->triangles_drawn());
     state.counters["draws"] = static_cast<double>(stage().draws->commands().size());
 }
 

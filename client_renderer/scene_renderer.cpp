@@ -305,9 +305,9 @@ private:
     }
 
     void decide_what_is_drawn(const Camera& camera, double scene_time_s) {
-        const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
         state_.set_time(scene_time_s);
         placed_->move(state_);
+        const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
         culling_->move();
         const std::span<const std::uint32_t> visible = in_part(drawn_as_meshes(culling_->visible(camera)), camera);
         ClusterUse clusters;

@@ -10,7 +10,8 @@ namespace lw {
 namespace {
 
 constexpr glm::ivec2 kSize_px{512, 512};
-constexpr int kFadeFrames = 8;
+constexpr int kFadeFrames = 7;  ///< eight steps of two of the dither's sixteen levels
+constexpr int kCellPx = 4;      ///< the eye averages over the dither's cell
 /// Two samples per pixel and axis: of one, the noise of sampling hides what updates do.
 constexpr int kSamples = 2;
 
@@ -39,6 +40,27 @@ private:
     int count_ = 0;
 };
 
+/// What the updates of each frame change in it, by themselves: energies over cells and over single pixels.
+class PopMeter {
+public:
+    void add(const ColourImage& without_updates, const ColourImage& shown) {
+        cells_ += change_energy(without_updates, shown, kCellPx);
+        pixels_ += change_energy(without_updates, shown, 1);
+        ++count_;
+    }
+
+    void write(FlickerPoint& point) const {
+        point.pop = std::sqrt(cells_ / std::max(count_, 1));
+        point.pop_by_pixel = std::sqrt(pixels_ / std::max(count_, 1));
+        point.pop_per_update = std::sqrt(cells_ / static_cast<double>(std::max<std::uint64_t>(point.updates, 1)));
+    }
+
+private:
+    double cells_ = 0.0;
+    double pixels_ = 0.0;
+    int count_ = 0;
+};
+
 FlickerPoint point_of(const BillboardSettings& settings) {
     FlickerPoint point;
     point.mode = name_of(settings.mode);
@@ -54,11 +76,15 @@ Status measure_moving(const BillboardStage& stage, const BillboardSettings& sett
     for (int k = 0; k < 5; ++k) (void)trial->draw(cameras.front(), 0.0, kSamples);
     FlickerPoint point = point_of(settings);
     FlickerMeter meter{trial->draw(cameras.front(), 0.0, kSamples)};
+    PopMeter pops;
     for (std::size_t k = 1; k < cameras.size(); ++k) {
-        meter.add(trial->draw(cameras[k], 0.0, kSamples), meshes[k - 1], meshes[k]);
+        const ColourImage& shown = trial->draw(cameras[k], 0.0, kSamples);
+        meter.add(shown, meshes[k - 1], meshes[k]);
         point.updates += trial->frames().back().counters.updated;
+        pops.add(trial->draw_without_updates(cameras[k], kSamples), shown);
     }
     meter.write(point);
+    pops.write(point);
     into.push_back(point);
     return Done{};
 }
@@ -66,13 +92,16 @@ Status measure_moving(const BillboardStage& stage, const BillboardSettings& sett
 }  // namespace
 
 Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& bench) {
-    const std::vector<Camera> cameras = stage.cameras(23.0, quick ? 23.2 : 23.8, 0.05, kSize_px);
+    const std::vector<Camera> cameras = stage.cameras(22.6, quick ? 22.8 : 23.8, 0.05, kSize_px);
     auto meshes = stage.meshes(cameras, kSamples);
     if (!meshes.ok()) return meshes.error();
     for (const BillboardMode mode : {BillboardMode::flat, BillboardMode::warped}) {
         for (const int fade_frames : {0, kFadeFrames}) {
-            BillboardSettings settings = by_error(mode, mode == BillboardMode::flat ? 0.4 : 0.8);
+            BillboardSettings settings = by_error(mode, 0.4);
             settings.fade_frames = fade_frames;
+            settings.keep_replaced = true;
+            settings.capacities = {1024, 1024, 1024,
+                                   1024, 512,  128};  // old and new versions, and those of the last frame
             const Status status = measure_moving(stage, settings, cameras, *meshes, bench.flicker);
             if (!status.ok()) return status;
         }

@@ -12,14 +12,20 @@ namespace lw {
 
 /// The figures that the whole suite comes down to.
 struct BillboardFigures {
-    double speedup_best_100 = 0.0;      ///< least speed-up of the best hundred frames (of all, where there are fewer)
-    double speedup_min_eligible = 0.0;  ///< over frames with 80 % of the triangles replaceable and 64 redraws at most
+    /// Least speed-up of the best hundred frames (of all, where there are fewer), by wall and by processor time.
+    double speedup_best_100 = 0.0;
+    double speedup_best_100_processor = 0.0;
+    /// Over frames with 80 % of the triangles replaceable and 64 redraws at most.
+    double speedup_min_eligible = 0.0;
+    double speedup_min_eligible_processor = 0.0;
     std::size_t eligible = 0;
     double ssim_mean = 1.0;
     double ssim_min = 1.0;
-    double warped_better = 0.0;    ///< share of the frames in which warped quads beat flat ones, updated as often
-    double redraw_ratio = 0.0;     ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
-    double flicker_ratio = 0.0;    ///< with cross-fade to without, warped
+    double warped_better = 0.0;        ///< share of the frames in which warped quads beat flat ones, updated as often
+    double redraw_ratio = 0.0;         ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
+    double redraw_ratio_beside = 0.0;  ///< the same on the walk to the side
+    double flicker_ratio = 0.0;        ///< what updates change in a frame, with cross-fade to without, warped
+    double flicker_ratio_per_update = 0.0;
     double worst_to_median = 0.0;  ///< the median frame with the costliest updates to the median frame, with a budget
 };
 
@@ -41,8 +47,8 @@ struct RedrawShare {
     }
 };
 
-/// Of all settings of flat billboards. Pure.
-[[nodiscard]] std::vector<RedrawShare> redraw_shares(const BillboardBench& bench);
+/// Of all settings of flat billboards among `points`. Pure.
+[[nodiscard]] std::vector<RedrawShare> redraw_shares(std::span<const SweepPoint> points);
 
 [[nodiscard]] BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene);
 

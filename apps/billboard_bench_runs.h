@@ -48,7 +48,7 @@ struct SweepPoint {
     double worst_ssim = 1.0;
     double flip_truth = 0.0;       ///< against antialiased meshes
     double active = 0.0;           ///< billboards per frame
-    double frame_ms = 0.0;         ///< median
+    double frame_ms = 0.0;         ///< median, processor time
     double worst_to_median = 1.0;  ///< the median frame with the costliest updates, to the median frame
 };
 
@@ -57,8 +57,11 @@ struct FlickerPoint {
     std::string mode;
     int fade_frames = 0;
     std::uint64_t updates = 0;
-    double flicker = 0.0;        ///< root of the mean energy
-    double worst_flicker = 0.0;  ///< of the worst frame
+    double flicker = 0.0;         ///< from frame to frame beyond the truth's change: root of the mean energy
+    double worst_flicker = 0.0;   ///< of the worst frame
+    double pop = 0.0;             ///< what updates alone change in a frame, over cells: root of the mean energy
+    double pop_by_pixel = 0.0;    ///< the same over single pixels
+    double pop_per_update = 0.0;  ///< the root of all the energy over the updates
 };
 
 struct StillPoint {
@@ -74,10 +77,12 @@ struct StillPoint {
 struct BillboardBench {
     PathRun path;
     PairRun overview;
-    std::vector<SweepPoint> caps;        ///< error caps and angles
+    std::vector<SweepPoint> caps;        ///< error caps and angles, on the dive
+    std::vector<SweepPoint> beside;      ///< the same on a walk to the side
     std::vector<SweepPoint> thresholds;  ///< value: share of the scene's diagonal
     std::vector<SweepPoint> budgets;     ///< value: milliseconds for updates in a frame; 0: no limit
-    SweepPoint meshes;                   ///< what the sweeps' meshes are like to antialiased ones
+    SweepPoint meshes;                   ///< what the dive's meshes are like to antialiased ones
+    SweepPoint meshes_beside;            ///< and the walk's
     std::vector<FlickerPoint> flicker;   ///< of updates while the eye moves
     std::vector<StillPoint> still;       ///< by layout
     std::vector<StillPoint> layouts;     ///< by layout, after a step to the side

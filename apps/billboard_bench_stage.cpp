@@ -31,8 +31,16 @@ std::vector<Camera> BillboardStage::cameras(double from_s, double to_s, double s
     return cameras;
 }
 
+std::vector<Camera> BillboardStage::walk_beside(double time_s, int count, double step_m, glm::ivec2 size_px) const {
+    std::vector<Camera> cameras(static_cast<std::size_t>(count), camera_at(time_s, size_px));
+    for (int k = 0; k < count; ++k) {
+        cameras[static_cast<std::size_t>(k)].world_from_eye.position_m.x += step_m * (k - 0.5 * (count - 1));
+    }
+    return cameras;
+}
+
 Result<BillboardTrial> BillboardStage::trial(std::string label, const BillboardSettings& settings) const {
-    return BillboardTrial::create(std::move(label), scene_, settings, clock_);
+    return BillboardTrial::create(std::move(label), scene_, settings, {&wall_clock_, &processor_clock_});
 }
 
 Result<std::vector<ColourImage>> BillboardStage::meshes(const std::vector<Camera>& cameras,

@@ -26,6 +26,8 @@ public:
     [[nodiscard]] Camera camera_at(double time_s, glm::ivec2 size_px) const;
     /// Cameras from `from_s` on until before `to_s`.
     [[nodiscard]] std::vector<Camera> cameras(double from_s, double to_s, double step_s, glm::ivec2 size_px) const;
+    /// `count` cameras on a walk to the side, from `step_m` to `step_m`, about the place on the flight at `time_s`.
+    [[nodiscard]] std::vector<Camera> walk_beside(double time_s, int count, double step_m, glm::ivec2 size_px) const;
 
     [[nodiscard]] Result<BillboardTrial> trial(std::string label, const BillboardSettings& settings) const;
 
@@ -39,7 +41,8 @@ private:
     const scene::Scene& scene_;
     bool quiet_;
     Trace flight_;
-    RealClock clock_;
+    RealClock wall_clock_;
+    ProcessorClock processor_clock_;
 };
 
 /// Billboards drawn anew by the three angles, at most `updates` of them per frame.

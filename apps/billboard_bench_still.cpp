@@ -80,7 +80,7 @@ Status measure_layouts(StillCamera& still, BillboardBench& bench) {
         status = still.measure(label, settings, kStep_m, bench.layouts);
         if (!status.ok()) return status;
     }
-    for (const int texels_per_px : {1, 3}) {
+    for (const int texels_per_px : {1, 2, 4}) {
         BillboardSettings settings = by_error(BillboardMode::warped, kNoCap_px);
         settings.texels_per_px = texels_per_px;
         const Status status = still.measure(fmt::format("10 bytes, {} texels per pixel and more", texels_per_px),

@@ -1,6 +1,9 @@
 #include "apps/billboard_trial.h"
 
 #include <cmath>
+#include <ctime>
+
+#include "core/check.h"
 
 namespace lw {
 
@@ -8,36 +11,46 @@ namespace {
 
 constexpr int kCellPx = 4;
 
-double cell_luma(const ColourImage& image, int cell_x, int cell_y) {
+double cell_luma(const ColourImage& image, int cell_px, int cell_x, int cell_y) {
     double sum = 0.0;
-    for (int y = 0; y < kCellPx; ++y) {
-        for (int x = 0; x < kCellPx; ++x) {
-            const Rgba8 colour = image.at(cell_x * kCellPx + x, cell_y * kCellPx + y);
+    for (int y = 0; y < cell_px; ++y) {
+        for (int x = 0; x < cell_px; ++x) {
+            const Rgba8 colour = image.at(cell_x * cell_px + x, cell_y * cell_px + y);
             sum += 0.299 * colour.r + 0.587 * colour.g + 0.114 * colour.b;
         }
     }
-    return sum / (255.0 * kCellPx * kCellPx);
+    return sum / (255.0 * cell_px * cell_px);
 }
 
 }  // namespace
 
+TimePoint ProcessorClock::now() const {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return TimePoint{std::chrono::seconds{time.tv_sec} + std::chrono::nanoseconds{time.tv_nsec}};
+}
+
+void ProcessorClock::sleep_until(TimePoint) { LW_CHECK(false, "processor time does not pass while one waits"); }
+
 Result<BillboardTrial> BillboardTrial::create(std::string label, const scene::Scene& scene,
-                                              const BillboardSettings& settings, const Clock& clock) {
+                                              const BillboardSettings& settings, const TrialClocks& clocks) {
     SceneRendererSettings renderer_settings;
     renderer_settings.billboards = settings;
-    renderer_settings.stage_clock = &clock;
+    renderer_settings.stage_clock = clocks.processor;
     auto renderer = SceneRenderer::create(scene, renderer_settings);
     if (!renderer) return renderer.error();
     (*renderer)->use_billboards(true);
-    return BillboardTrial{std::move(label), clock, std::move(*renderer)};
+    return BillboardTrial{std::move(label), clocks, std::move(*renderer)};
 }
 
 const ColourImage& BillboardTrial::draw(const Camera& camera, double time_s, int samples_per_axis) {
     TrialFrame frame;
     frame.time_s = time_s;
-    const TimePoint begin = clock_->now();
+    const TimePoint wall_begin = clocks_.wall->now();
+    const TimePoint begin = clocks_.processor->now();
     renderer_->draw_resolved(camera, time_s, samples_per_axis, pixels_);
-    frame.frame_ms = to_ms(clock_->now() - begin);
+    frame.frame_ms = to_ms(clocks_.processor->now() - begin);
+    frame.wall_ms = to_ms(clocks_.wall->now() - wall_begin);
     const DrawCounters& drawn = renderer_->counters();
     frame.meshes_ms = drawn.meshes_ms;
     frame.draw_ms = drawn.billboards_ms;
@@ -53,6 +66,11 @@ const ColourImage& BillboardTrial::draw(const Camera& camera, double time_s, int
     return pixels_.colour;
 }
 
+const ColourImage& BillboardTrial::draw_without_updates(const Camera& camera, int samples_per_axis) {
+    renderer_->draw_without_updates(camera, 0.0, samples_per_axis, without_updates_);
+    return without_updates_.colour;
+}
+
 std::array<std::size_t, kBillboardDimensions.size()> BillboardTrial::bytes() const {
     return renderer_->billboards() == nullptr ? std::array<std::size_t, kBillboardDimensions.size()>{}
                                               : renderer_->billboards()->bytes();
@@ -64,14 +82,26 @@ std::uint64_t BillboardTrial::redraws() const {
     return sum;
 }
 
+double change_energy(const ColourImage& before, const ColourImage& after, int cell_px) {
+    double sum = 0.0;
+    const glm::ivec2 cells = before.size_px() / cell_px;
+    for (int y = 0; y < cells.y; ++y) {
+        for (int x = 0; x < cells.x; ++x) {
+            const double change = cell_luma(after, cell_px, x, y) - cell_luma(before, cell_px, x, y);
+            sum += change * change;
+        }
+    }
+    return sum / std::max(cells.x * cells.y, 1);
+}
+
 double flicker_energy(const ColourImage& before, const ColourImage& after, const ColourImage& true_before,
                       const ColourImage& true_after) {
     double sum = 0.0;
     const glm::ivec2 cells = before.size_px() / kCellPx;
     for (int y = 0; y < cells.y; ++y) {
         for (int x = 0; x < cells.x; ++x) {
-            const double change = cell_luma(after, x, y) - cell_luma(before, x, y);
-            const double true_change = cell_luma(true_after, x, y) - cell_luma(true_before, x, y);
+            const double change = cell_luma(after, kCellPx, x, y) - cell_luma(before, kCellPx, x, y);
+            const double true_change = cell_luma(true_after, kCellPx, x, y) - cell_luma(true_before, kCellPx, x, y);
             const double excess = std::max(std::abs(change) - std::abs(true_change), 0.0);
             sum += excess * excess;
         }

@@ -12,10 +12,25 @@
 
 namespace lw {
 
-/// What one frame of a trial cost and did.
+/// Processor time of all threads of this process. On a machine that does other work it is steadier than wall time.
+class ProcessorClock final : public Clock {
+public:
+    [[nodiscard]] TimePoint now() const override;
+    /// Nobody waits by it: programmer error.
+    void sleep_until(TimePoint wake) override;
+};
+
+/// The clocks of a trial; they outlive it.
+struct TrialClocks {
+    const Clock* wall;
+    const Clock* processor;
+};
+
+/// What one frame of a trial cost and did. All but the wall time is processor time of all threads.
 struct TrialFrame {
-    double time_s = 0.0;  ///< on the path
-    double frame_ms = 0.0;
+    double time_s = 0.0;    ///< on the path
+    double wall_ms = 0.0;   ///< of the whole frame
+    double frame_ms = 0.0;  ///< of the whole frame
     double meshes_ms = 0.0;
     double choose_ms = 0.0;
     double create_ms = 0.0;
@@ -29,13 +44,17 @@ struct TrialFrame {
 /// Belongs to one GL context and its thread.
 class BillboardTrial {
 public:
-    /// Mode off: everything is a mesh. `clock` outlives the trial.
+    /// Mode off: everything is a mesh.
     [[nodiscard]] static Result<BillboardTrial> create(std::string label, const scene::Scene& scene,
-                                                       const BillboardSettings& settings, const Clock& clock);
+                                                       const BillboardSettings& settings, const TrialClocks& clocks);
 
     /// Draws the next frame of the path, with `samples_per_axis` squared samples per pixel, and remembers what it cost.
     /// The picture stays until the next one.
     const ColourImage& draw(const Camera& camera, double time_s, int samples_per_axis = 1);
+
+    /// The last frame again as it would be without its updates and steps of fades; for settings that keep what is
+    /// replaced. The picture stays until the next one.
+    const ColourImage& draw_without_updates(const Camera& camera, int samples_per_axis);
 
     [[nodiscard]] const std::string& label() const { return label_; }
     [[nodiscard]] const std::vector<TrialFrame>& frames() const { return frames_; }
@@ -45,15 +64,20 @@ public:
     [[nodiscard]] std::uint64_t redraws() const;
 
 private:
-    BillboardTrial(std::string label, const Clock& clock, std::unique_ptr<SceneRenderer> renderer)
-        : label_{std::move(label)}, clock_{&clock}, renderer_{std::move(renderer)} {}
+    BillboardTrial(std::string label, const TrialClocks& clocks, std::unique_ptr<SceneRenderer> renderer)
+        : label_{std::move(label)}, clocks_{clocks}, renderer_{std::move(renderer)} {}
 
     std::string label_;
-    const Clock* clock_;
+    TrialClocks clocks_;
     std::unique_ptr<SceneRenderer> renderer_;
     CpuPixels pixels_;
+    CpuPixels without_updates_;
     std::vector<TrialFrame> frames_;
 };
+
+/// How much two pictures differ: luma (sRGB, 0 to 1) averaged over cells of `cell_px` squared, the difference squared
+/// and averaged. Equal sizes. Pure.
+[[nodiscard]] double change_energy(const ColourImage& before, const ColourImage& after, int cell_px);
 
 /// How much more two pictures in a row change than the true ones do: over 4 x 4 pixels, the cell of the dither, since
 /// the eye averages over it. The excess of the change of luma (sRGB, 0 to 1), squared and averaged. Equal sizes. Pure.

@@ -25,7 +25,7 @@ void declare_billboards(Declarer& declare) {
     declare.number("--billboard-updates", "N", {0, 100000}, billboards.max_updates,
                    "billboards drawn anew per frame; what is left is drawn as meshes (256)");
     declare.number("--billboard-budget", "MS", {0, 10000}, billboards.budget_ms,
-                   "estimated time for them per frame; what is left waits, within twice the error; 0: none (0)");
+                   "estimated time for them per frame, the worst first; what is left waits; 0: none (0)");
     declare.number("--billboard-fade", "N", {0, 60}, billboards.fade_frames,
                    "frames over which the new version of a billboard replaces the old one (0)");
 }

@@ -10,6 +10,7 @@
 #include "billboard_lod/object_groups.h"
 #include "billboard_lod/object_score.h"
 #include "billboard_lod/update_cost.h"
+#include "core/check.h"
 
 namespace lw {
 
@@ -26,11 +27,19 @@ struct Version {
 
 enum class Shown : std::uint8_t { nothing, mesh, billboard };
 
+/// What a frame shows of an object.
+struct Look {
+    std::optional<Version> current;
+    std::optional<Version> previous;  ///< while it fades out
+    float share = 1.0f;               ///< of the pixels that show `current`
+};
+
 struct Entry {
     BillboardObject object;
     std::uint64_t triangles = 0;
     std::optional<Version> current;
     std::optional<Version> previous;  ///< while it fades out
+    Look before;                      ///< of the last frame, with keep_replaced
     int fade = 0;                     ///< frames since `current` was drawn
     std::uint64_t last_shown = 0;     ///< number of the last frame that showed `current`
     Shown shown = Shown::nothing;
@@ -79,6 +88,7 @@ public:
     }
 
     void prepare(const Camera& camera, const scene::SceneState& state) override {
+        if (settings_.keep_replaced) remember();
         ++frame_;
         counters_ = {};
         std::ranges::fill(replaced_, std::uint8_t{0});
@@ -99,13 +109,16 @@ public:
         quads_.clear();
         for (const Entry& entry : entries_) {
             if (entry.shown != Shown::billboard) continue;
-            const float share = entry.previous
-                                    ? static_cast<float>(entry.fade + 1) / static_cast<float>(settings_.fade_frames + 1)
-                                    : 1.0f;
-            append(entry, *entry.current, part, 0.0f, share);
-            if (entry.previous) append(entry, *entry.previous, part, share, 1.0f);
+            const Look look = withholds_ && entry.before.current ? entry.before : look_of(entry);
+            append(entry, *look.current, part, 0.0f, look.share);
+            if (look.previous) append(entry, *look.previous, part, look.share, 1.0f);
         }
         pass_.draw(quads_, atlas_, part);
+    }
+
+    void withhold_updates(bool withhold) override {
+        LW_CHECK(!withhold || settings_.keep_replaced, "nothing was kept of the last frame");
+        withholds_ = withhold;
     }
 
     [[nodiscard]] const BillboardCounters& counters() const override { return counters_; }
@@ -117,6 +130,27 @@ public:
     [[nodiscard]] const BillboardSettings& settings() const override { return settings_; }
 
 private:
+    [[nodiscard]] Look look_of(const Entry& entry) const {
+        if (!entry.previous) return {entry.current, std::nullopt, 1.0f};
+        const auto steps = static_cast<float>(settings_.fade_frames + 1);
+        return {entry.current, entry.previous, static_cast<float>(entry.fade) / steps};
+    }
+
+    /// Before a frame: what the last one shows, and the slots that it no longer needs.
+    void remember() {
+        for (Entry& entry : entries_) entry.before = entry.shown == Shown::billboard ? look_of(entry) : Look{};
+        for (const AtlasSlot slot : retired_) slots_.release(slot);
+        retired_.clear();
+    }
+
+    void release(AtlasSlot slot) {
+        if (settings_.keep_replaced) {
+            retired_.push_back(slot);
+        } else {
+            slots_.release(slot);
+        }
+    }
+
     /// Where the eye will be at the next frame if it goes on as since the last.
     void foresee() {
         const Pose& now = camera_.world_from_eye;
@@ -213,8 +247,8 @@ private:
         for (const std::uint32_t e : chosen_) {
             Entry& entry = entries_[e];
             estimated_ms += cost_.estimated_ms(entry.triangles);
-            // Beyond twice the cap, and where it cannot be shown at all, there is no choice: the mesh costs the same.
-            if (settings_.budget_ms > 0.0 && estimated_ms > settings_.budget_ms && update_priority(entry) < 2.0) {
+            // The worst ones come first, and one always does, so that nothing waits forever.
+            if (settings_.budget_ms > 0.0 && estimated_ms > settings_.budget_ms && !jobs_.empty()) {
                 entry.shown = Shown::billboard;
                 ++counters_.stale;
                 continue;
@@ -257,7 +291,7 @@ private:
 
     void forget(Entry& entry) {
         for (std::optional<Version>* version : {&entry.current, &entry.previous}) {
-            if (*version) slots_.release((*version)->slot);
+            if (*version) release((*version)->slot);
             version->reset();
         }
     }
@@ -268,15 +302,15 @@ private:
         const bool fades = settings_.fade_frames > 0;
         AtlasSlot slot = entry.current->slot;
         if (entry.previous) {
-            slots_.release(entry.previous->slot);
+            release(entry.previous->slot);
             entry.previous.reset();
         }
-        if (fades || slot.level != level) {
+        if (fades || settings_.keep_replaced || slot.level != level) {
             if (const std::optional<AtlasSlot> other = reserve(entry)) {
                 if (fades) {
                     entry.previous = entry.current;
                 } else {
-                    slots_.release(slot);
+                    release(slot);
                 }
                 slot = *other;
             }
@@ -346,7 +380,7 @@ private:
     void finish() {
         for (Entry& entry : entries_) {
             if (entry.previous && (entry.shown != Shown::billboard || entry.fade >= settings_.fade_frames)) {
-                slots_.release(entry.previous->slot);
+                release(entry.previous->slot);
                 entry.previous.reset();
             }
             if (entry.shown != Shown::billboard) continue;
@@ -412,6 +446,7 @@ private:
     BillboardCounters counters_;
     UpdateCost cost_;
     std::uint64_t frame_ = 1;
+    bool withholds_ = false;
 
     Camera camera_;  ///< of the frame
     glm::dmat4 eye_from_world_{1.0};
@@ -419,6 +454,7 @@ private:
     std::optional<Pose> last_pose_;
     TimePoint stage_begin_;
 
+    std::vector<AtlasSlot> retired_;  ///< that the last frame showed and this one does not, with keep_replaced
     std::vector<std::uint32_t> chosen_;
     std::vector<std::uint32_t> jobs_;
     std::vector<PaintedView> views_;

@@ -58,6 +58,10 @@ public:
     /// whole or a tile of it.
     virtual void draw(const Camera& part) = 0;
 
+    /// From now on draw() shows each billboard as the frame before did, where that had one: the picture without this
+    /// frame's updates and steps of fades. Only with BillboardSettings::keep_replaced.
+    virtual void withhold_updates(bool withhold) = 0;
+
     [[nodiscard]] virtual const BillboardCounters& counters() const = 0;
     /// Bytes that the atlases of each dimension take now.
     [[nodiscard]] virtual std::array<std::size_t, kBillboardDimensions.size()> bytes() const = 0;

@@ -35,11 +35,13 @@ struct BillboardSettings {
     int max_updates = 256;              ///< per frame; the rest are meshes in this one
     int texels_per_px = 3;              ///< a billboard's texels per pixel and axis when it is drawn, at least; 1 to 8
     int fade_frames = 0;                ///< frames over which an updated billboard replaces its old version; 0: at once
-    double budget_ms = 0.0;             ///< estimated time for updates and creations per frame; 0: no limit
+    double budget_ms = 0.0;             ///< estimated time for updates per frame; 0: no limit
     std::uint64_t min_triangles = 256;  ///< objects with fewer are drawn as fast as their quads
     /// Flat billboards beyond show no depth of their own, only their plane's: what a smaller texel without depth gives.
     double depthless_beyond_m = std::numeric_limits<double>::infinity();
     bool group_touching = false;  ///< static objects whose boxes overlap share one billboard
+    /// What a frame's updates replace is kept until the next one, so that withhold_updates() can show it. Takes slots.
+    bool keep_replaced = false;
 };
 
 }  // namespace lw

@@ -10,6 +10,8 @@ namespace {
 
 constexpr double kDegPerRad = 180.0 / 3.14159265358979323846;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Mean distance of two points that lie anywhere in a range, as a share of the range.
+constexpr double kMeanApart = 1.0 / 3.0;
 
 // By the arc tangent: exact also for tiny angles, where the arc cosine loses half its digits.
 double angle_deg(const glm::dvec3& a, const glm::dvec3& b) {
@@ -83,7 +85,7 @@ double warped_error_px(const DrawnBillboard& billboard, const glm::dmat4& eye_no
         widest_px = std::max(widest_px, glm::length((tangents(front) - tangents(back)) * scale));
     }
     const double texel_px = billboard.grid.per_texel.x * scale.x * (billboard.nearest_m / nearest_now_m);
-    return widest_px + std::max(0.0, texel_px - 1.0);
+    return kMeanApart * widest_px + std::max(0.0, texel_px - 1.0);
 }
 
 }  // namespace lw

@@ -53,8 +53,9 @@ struct DrawnBillboard {
                                    const Camera& camera);
 
 /// What is left when the billboard's own depth moves its pixels: points land where they belong, but what its eye did
-/// not see is missing. That is at most as wide as the nearest and the farthest point of one of its rays are apart now,
-/// pixels, plus what its texels are larger than pixels by. Infinite when a corner lies before the near plane. Pure.
+/// not see is missing. That is as wide as two surfaces on one of its rays are apart now, pixels: of two points anywhere
+/// in its depth the mean, a third of what its nearest and its farthest point would be apart. Plus what its texels are
+/// larger than pixels by. Infinite when a corner lies before the near plane. Pure.
 [[nodiscard]] double warped_error_px(const DrawnBillboard& billboard, const glm::dmat4& eye_now_from_eye_drawn,
                                      const Camera& camera);
 

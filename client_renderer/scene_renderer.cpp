@@ -128,17 +128,24 @@ public:
 
     void draw(const Camera& camera, double scene_time_s, CpuPixels& pixels) override {
         begin_picture(camera, scene_time_s, 1);
-        const RenderTargets& targets = render(camera, scene_time_s);
-        download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
+        draw_begun(camera, scene_time_s, 1, pixels);
     }
 
     void draw_resolved(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) override {
         check_samples(samples_per_axis);
-        if (samples_per_axis == 1) return draw(camera, scene_time_s, pixels);
         begin_picture(camera, scene_time_s, samples_per_axis);
-        resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
-        download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
-        pixels.alpha_is_share = true;
+        draw_begun(camera, scene_time_s, samples_per_axis, pixels);
+    }
+
+    void draw_without_updates(const Camera& camera, double scene_time_s, int samples_per_axis,
+                              CpuPixels& pixels) override {
+        LW_CHECK(field_ != nullptr, "no billboards");
+        check_samples(samples_per_axis);
+        counters_ = {};
+        replace_by_billboards_ = true;
+        field_->withhold_updates(true);
+        draw_begun(camera, scene_time_s, samples_per_axis, pixels);
+        field_->withhold_updates(false);
     }
 
     std::uint64_t draw_part(const Camera& camera, double scene_time_s, int samples_per_axis, const ScenePart& part,
@@ -241,6 +248,18 @@ private:
         Camera whole = camera;
         whole.size_px *= samples_per_axis;
         field_->prepare(whole, state_);
+    }
+
+    // After begin_picture().
+    void draw_begun(const Camera& camera, double scene_time_s, int samples_per_axis, CpuPixels& pixels) {
+        if (samples_per_axis == 1) {
+            const RenderTargets& targets = render(camera, scene_time_s);
+            download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
+            return;
+        }
+        resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
+        download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
+        pixels.alpha_is_share = true;
     }
 
     /// Runs `stage` and adds its time to `ms` where stages are timed.

@@ -98,6 +98,12 @@ public:
     /// so that truth and comparisons are meshes. With them a picture depends on those drawn before. Truth
     /// (draw_supersampled) never shows any.
     virtual void use_billboards(bool use) { static_cast<void>(use); }
+    /// The picture of the last draw_resolved() again, whose arguments these are, with its billboards as the frame
+    /// before showed them: what its updates changed is the difference. Only with BillboardSettings::keep_replaced.
+    virtual void draw_without_updates(const Camera& camera, double scene_time_s, int samples_per_axis,
+                                      CpuPixels& pixels) {
+        draw_resolved(camera, scene_time_s, samples_per_axis, pixels);
+    }
     /// Null without billboards in the settings.
     [[nodiscard]] virtual const BillboardField* billboards() const { return nullptr; }
 

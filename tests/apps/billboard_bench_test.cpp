@@ -19,6 +19,7 @@ SweepPoint sweep_point(const char* mode, double redraws, double flip) {
 TrialFrame frame_of(double ms, std::uint64_t updated, std::uint64_t replaceable) {
     TrialFrame frame;
     frame.frame_ms = ms;
+    frame.wall_ms = 2.0 * ms;
     frame.update_ms = static_cast<double>(updated) * 0.5;
     frame.counters.updated = updated;
     frame.counters.triangles_in_view = 100;
@@ -41,7 +42,7 @@ TEST(BillboardBench, SharesOfRedrawsAreTakenAtTheErrorOfFlatOnes) {
     bench.caps = {sweep_point("flat", 100, 0.01), sweep_point("flat", 50, 0.03), sweep_point("warped", 80, 0.02),
                   sweep_point("warped", 4, 0.03)};
     bench.caps[1].value = 2.0;
-    const std::vector<RedrawShare> shares = redraw_shares(bench);
+    const std::vector<RedrawShare> shares = redraw_shares(bench.caps);
     ASSERT_EQ(shares.size(), 2U);
     EXPECT_FALSE(shares[0].warped_redraws.has_value());
     EXPECT_TRUE(std::isinf(shares[0].share()));
@@ -61,6 +62,7 @@ TEST(BillboardBench, FiguresCountOnlyEligibleFrames) {
     const BillboardFigures figures = figures_of(bench);
     EXPECT_EQ(figures.eligible, 3U) << "too many updates, too few replaceable triangles";
     EXPECT_DOUBLE_EQ(figures.speedup_min_eligible, 4.0);
+    EXPECT_DOUBLE_EQ(figures.speedup_min_eligible_processor, 4.0);
     EXPECT_DOUBLE_EQ(figures.speedup_best_100, 12.5) << "fewer than 100 frames: the least of all";
     EXPECT_NEAR(figures.ssim_mean, 0.96, 1e-12);
     EXPECT_DOUBLE_EQ(figures.ssim_min, 0.94);
@@ -84,6 +86,9 @@ TEST(BillboardBench, FlickerIsChangeBeyondTheTruths) {
         for (int x = 0; x < 8; ++x) ((x + y) % 2 == 0 ? even : odd).at(x, y) = {255, 255, 255, 255};
     }
     EXPECT_NEAR(flicker_energy(even, odd, grey(0), grey(0)), 0.0, 1e-12);
+    EXPECT_NEAR(change_energy(even, odd, 4), 0.0, 1e-12);
+    EXPECT_NEAR(change_energy(even, odd, 1), 1.0, 1e-12);
+    EXPECT_NEAR(change_energy(grey(0), grey(51), 4), 0.2 * 0.2, 1e-12);
 }
 
 }  // namespace

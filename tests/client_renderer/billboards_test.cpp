@@ -339,7 +339,7 @@ TEST_F(GlBillboards, ABudgetLeavesUpdatesForLater) {
     const scene::Scene scene = few_chairs();
     const Camera camera = outside(scene);
     BillboardSettings settings = with_mode(BillboardMode::warped);
-    settings.error_cap_px = 0.5;
+    settings.error_cap_px = 0.15;
     settings.budget_ms = 2.5;  // by the fixed model: about three of 13 objects of 6,000-9,000 triangles
     auto renderer = make(scene, settings);
     (void)draw(*renderer, camera);

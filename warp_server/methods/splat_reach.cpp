@@ -63,11 +63,11 @@ RowRange pixels_of(const Extent& extent, int size) {
     return {static_cast<int>(begin), static_cast<int>(end)};
 }
 
-// A pixel costs something, too, where no point lands: about two fifths of one with a point (what evens out the samples
-// of two threads over a picture half of which is background).
+// A pixel costs something, too, where no point lands: about a third of one with a point (what evens out the samples of
+// two threads over a picture half of which is background).
 long cost_of_band(const SplatTiles& tiles, std::size_t band) {
     const int rows = std::min(kBandHeight_px, tiles.size_px.y - static_cast<int>(band) * kBandHeight_px);
-    return 3L * tiles.points[band] + 2L * rows * tiles.size_px.x;
+    return 2L * tiles.points[band] + long{rows} * tiles.size_px.x;
 }
 
 RowRange joined(const RowRange& a, const RowRange& b) {

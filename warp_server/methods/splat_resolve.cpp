@@ -30,8 +30,9 @@ HWY_INLINE SourcePlaces<D> source_places(D d, const glm::mat3& h, glm::ivec2 siz
                        hn::Mul(x_px, hn::Set(d, h[0][component])));
     };
     const auto w = term(2);
-    const auto place_x = hn::Div(term(0), w);
-    const auto place_y = hn::Div(term(1), w);
+    const auto per_w = hn::Div(hn::Set(d, 1.0F), w);
+    const auto place_x = hn::Mul(term(0), per_w);
+    const auto place_y = hn::Mul(term(1), per_w);
     const auto within = [&](hn::Vec<D> place, int size) {
         return hn::And(hn::Ge(place, hn::Zero(d)), hn::Lt(place, hn::Set(d, static_cast<float>(size))));
     };
@@ -134,6 +135,18 @@ HWY_INLINE void add_background(D d, const SplatInput& input, const glm::mat3& h,
     HWY_ALIGN std::int32_t rows[kMaxLanes];
     hn::Store(row, di, rows);
     const int span = 2 * static_cast<int>(hn::Lanes(d));
+    const std::size_t last = hn::Lanes(d) - 1;
+    if (rows[0] == rows[last] && hn::AllTrue(d, wanted)) {
+        // Places along a target row move one way in the source: what holds of the ends holds between.
+        HWY_ALIGN std::int32_t columns[kMaxLanes];
+        hn::Store(column, di, columns);
+        const auto [least, greatest] = std::minmax(columns[0], columns[last]);
+        const int first = std::min(least, pixels.depth.width() - span);
+        if (first >= 0 && greatest < first + span) {
+            add_background_row(d, input, first, rows[0], column, wanted, shown);
+            return;
+        }
+    }
     while (!hn::AllFalse(d, wanted)) {  // one turn per source row, and most vectors of a level head have one
         const int group_row = rows[hn::FindFirstTrue(d, wanted)];
         const auto group = hn::And(wanted, hn::RebindMask(d, hn::Eq(row, hn::Set(di, group_row))));

@@ -137,5 +137,29 @@ TEST(Random, KnownNumbers) {
     }
 }
 
+TEST(MeshBuilder, AStripMeetsAllCornersOfBothItsSides) {
+    MeshBuilder builder{"strip"};
+    builder.use_material(0);
+    const glm::dvec3 front{0.0, 0.0, 1.0};
+    std::vector<std::uint32_t> left;
+    std::vector<std::uint32_t> right;
+    for (const double y : {0.0, 3.0}) left.push_back(builder.vertex({0.0, y, 0.0}, front));
+    for (const double y : {0.0, 1.0, 1.5, 3.0}) right.push_back(builder.vertex({2.0, y, 0.0}, front));
+    builder.strip(left, right);
+    const Mesh mesh = builder.take();
+    EXPECT_EQ(mesh.vertices.size(), 6U);
+    ASSERT_EQ(mesh.indices.size(), 3U * 4U);
+    double area = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a{mesh.vertices[mesh.indices[i]].position_object};
+        const glm::dvec3 b{mesh.vertices[mesh.indices[i + 1]].position_object};
+        const glm::dvec3 c{mesh.vertices[mesh.indices[i + 2]].position_object};
+        const double twice = glm::cross(b - a, c - a).z;
+        EXPECT_GT(twice, 0.0) << "a triangle faces back";
+        area += 0.5 * twice;
+    }
+    EXPECT_NEAR(area, 6.0, 1e-6);
+}
+
 }  // namespace
 }  // namespace lw::scene

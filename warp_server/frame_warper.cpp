@@ -43,13 +43,40 @@ void FrameWarper::prepare(Layer& layer) const {
 }
 
 const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarget& target) {
+    if (!begin(frame, target)) return display_frame_;
+    if (!usable_layers_.empty()) counters_ = composition_.show(*method_, usable_layers_, usable_, display_frame_);
+    finish();
+    return display_frame_;
+}
+
+void FrameWarper::begin_steps(const RenderedFrame& frame, const WarpTarget& target, int bands) {
+    LW_CHECK(can_step(), std::string{method_->label()} + " has no steps");
+    is_stepping_ = begin(frame, target) && !usable_layers_.empty();
+    if (is_stepping_) composition_.begin_steps(*method_, usable_layers_, usable_, bands, display_frame_);
+}
+
+bool FrameWarper::next_stage() {
+    if (!is_stepping_) return false;
+    is_stepping_ = composition_.next_stage();
+    if (!is_stepping_) counters_ = composition_.step_counters();
+    return is_stepping_;
+}
+
+void FrameWarper::finish_steps() {
+    if (!is_reused_) finish();
+}
+
+// False: it is the picture that was made last, and nothing is to be done.
+bool FrameWarper::begin(const RenderedFrame& frame, const WarpTarget& target) {
     LW_CHECK(!frame.layers.empty(), "a rendered frame has at least one layer");
     held_ = {};
-    const WarpTarget usable = usable_target(frame, target);
-    if (is_made_of(frame, usable)) {
+    frame_ = &frame;
+    usable_ = usable_target(frame, target);
+    is_reused_ = is_made_of(frame, usable_);
+    if (is_reused_) {
         held_.bad_layer = made_.bad_layers;
         counters_.pictures_reused = 1;
-        return display_frame_;
+        return false;
     }
     counters_ = {};
     usable_layers_.clear();
@@ -61,16 +88,18 @@ const DisplayFrame& FrameWarper::warp(const RenderedFrame& frame, const WarpTarg
         }
         usable_layers_.push_back(layer.get());
     }
+    return true;
+}
+
+void FrameWarper::finish() {
     if (!usable_layers_.empty()) {
-        counters_ = composition_.show(*method_, usable_layers_, usable, display_frame_);
         open_partly_covered(display_frame_);
-        fill_->apply(display_frame_, fill_guide(usable_layers_.front()->camera, usable.camera));
+        fill_->apply(display_frame_, fill_guide(usable_layers_.front()->camera, usable_.camera));
         close_partly_covered(display_frame_);
-    } else if (display_frame_.colour.size_px() != usable.camera.size_px) {
-        show_nothing(usable.camera.size_px, display_frame_);
+    } else if (display_frame_.colour.size_px() != usable_.camera.size_px) {
+        show_nothing(usable_.camera.size_px, display_frame_);
     }
-    remember(frame, usable);
-    return display_frame_;
+    remember();
 }
 
 void FrameWarper::report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const {
@@ -86,11 +115,11 @@ bool FrameWarper::is_made_of(const RenderedFrame& frame, const WarpTarget& targe
            std::equal(made_.movers.begin(), made_.movers.end(), target.movers.begin(), target.movers.end());
 }
 
-void FrameWarper::remember(const RenderedFrame& frame, const WarpTarget& target) {
-    made_.layers.assign(frame.layers.begin(), frame.layers.end());
-    made_.camera = target.camera;
-    made_.eye = target.eye;
-    made_.movers.assign(target.movers.begin(), target.movers.end());
+void FrameWarper::remember() {
+    made_.layers.assign(frame_->layers.begin(), frame_->layers.end());
+    made_.camera = usable_.camera;
+    made_.eye = usable_.eye;
+    made_.movers.assign(usable_.movers.begin(), usable_.movers.end());
     made_.bad_layers = held_.bad_layer;
 }
 

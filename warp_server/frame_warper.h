@@ -13,6 +13,7 @@
 #include "warp_server/fill.h"
 #include "warp_server/layer_composition.h"
 #include "warp_server/picture_maker.h"
+#include "warp_server/stepped_warp.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
@@ -20,7 +21,7 @@ namespace lw {
 class FrameWarper final : public PictureMaker {
 public:
     FrameWarper(std::unique_ptr<WarpMethod> method, std::unique_ptr<Fill> fill)
-        : method_{std::move(method)}, fill_{std::move(fill)} {}
+        : method_{std::move(method)}, fill_{std::move(fill)}, stepped_{dynamic_cast<SteppedWarp*>(method_.get())} {}
 
     /// From specifications, "points:size_px=2" and "nearest-background".
     [[nodiscard]] static Result<FrameWarper> create(std::string_view method, std::string_view fill);
@@ -35,6 +36,16 @@ public:
     /// of that is counted. The same layers at the same poses are the same picture: it is shown again, whatever the
     /// method. The result is valid until the next call. Server thread.
     const DisplayFrame& warp(const RenderedFrame& frame, const WarpTarget& target) override;
+
+    /// Whether the method has steps (stepped_warp.h).
+    [[nodiscard]] bool can_step() const { return stepped_ != nullptr; }
+    /// warp() in steps, for the same picture: after begin_steps() every band of `bands` is stepped until it returns
+    /// false, each on a thread of its own or all on one; then next_stage() is called, and both again as long as it
+    /// returns true. finish_steps() fills. `frame` and `target.movers` outlive all of it.
+    void begin_steps(const RenderedFrame& frame, const WarpTarget& target, int bands);
+    bool step(int band) { return is_stepping_ && stepped_->step(band); }
+    [[nodiscard]] bool next_stage();
+    void finish_steps();
 
     /// What the last warp left out, over all layers.
     [[nodiscard]] const WarpCounters& counters() const override { return counters_; }
@@ -62,6 +73,8 @@ public:
     [[nodiscard]] double hole_fraction() const { return lw::hole_fraction(display_frame_); }
 
 private:
+    [[nodiscard]] bool begin(const RenderedFrame& frame, const WarpTarget& target);
+    void finish();
     [[nodiscard]] WarpTarget usable_target(const RenderedFrame& frame, const WarpTarget& target);
     void hold_placements(std::span<const ObjectTransform> movers);
     // What the last picture was made of. Layers by their weak pointers: an address may come again, and the last
@@ -74,14 +87,19 @@ private:
         std::uint64_t bad_layers = 0;
     };
     [[nodiscard]] bool is_made_of(const RenderedFrame& frame, const WarpTarget& target) const;
-    void remember(const RenderedFrame& frame, const WarpTarget& target);
+    void remember();
 
     std::unique_ptr<WarpMethod> method_;
     std::unique_ptr<Fill> fill_;
+    SteppedWarp* stepped_;  ///< the method, where it has steps
     DisplayFrame display_frame_;
     Made made_;
     LayerComposition composition_;
     std::vector<const Layer*> usable_layers_;  // of the picture being made
+    const RenderedFrame* frame_ = nullptr;     // from which it is made
+    WarpTarget usable_;                        // for which it is made
+    bool is_reused_ = false;                   // it is the one before
+    bool is_stepping_ = false;
     WarpCounters counters_;
     HeldInput held_;
     std::optional<Pose> good_head_;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 
+#include "core/check.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/surface_kernels.h"
+#include "warp_server/stepped_warp.h"
 
 namespace lw {
 namespace {
@@ -123,6 +125,45 @@ WarpCounters LayerComposition::show(WarpMethod& method, std::span<const Layer* c
 
 void LayerComposition::show_stack(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
                                   DisplayFrame& into, WarpCounters& counters) {
+    stack_all(layers, target);
+    method.warp_stack(stack_, target, StackBase::nothing, into);
+    counters += counters_of_stack(method);
+    if (!begin_beside_view(*layers.front(), target, into)) return;
+    method.warp_stack(stack_, target, StackBase::picture, into);
+    counters += counters_of_stack(method);
+    finish_beside_view(into);
+}
+
+void LayerComposition::begin_steps(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
+                                   int bands, DisplayFrame& into) {
+    LW_CHECK(!false_colours_, "false colours say of what layer a pixel is: layers are drawn one by one");
+    steps_ = {&method, layers.front(), target, bands, &into, {}, false};
+    stack_all(layers, target);
+    dynamic_cast<SteppedWarp&>(method).begin_stack(stack_, target, StackBase::nothing, bands, into);
+}
+
+bool LayerComposition::next_stage() {
+    auto& stepped = dynamic_cast<SteppedWarp&>(*steps_.method);
+    stepped.finish_stack();
+    steps_.counters += counters_of_stack(*steps_.method);
+    if (steps_.is_last) {
+        finish_beside_view(*steps_.into);
+        return false;
+    }
+    if (!begin_beside_view(*steps_.view, steps_.target, *steps_.into)) return false;
+    steps_.is_last = true;
+    stepped.begin_stack(stack_, steps_.target, StackBase::picture, steps_.bands, *steps_.into);
+    return true;
+}
+
+WarpCounters LayerComposition::counters_of_stack(const WarpMethod& method) const {
+    WarpCounters counters = method.counters();
+    for (const StackedLayer& layer : stack_) counters = without_empty(counters, *layer.layer);
+    return counters;
+}
+
+// All but those that stand in past the view's edges.
+void LayerComposition::stack_all(std::span<const Layer* const> layers, const WarpTarget& target) {
     const Layer& view = *layers.front();
     stack_.clear();
     beside_view_.clear();
@@ -134,22 +175,22 @@ void LayerComposition::show_stack(WarpMethod& method, std::span<const Layer* con
         const StackedLayer placed = stacked(*layer, view, target.camera);
         if (!placed.reach.empty()) stack_.push_back(placed);
     }
-    const auto warp = [&](StackBase base) {
-        method.warp_stack(stack_, target, base, into);
-        WarpCounters of_stack = method.counters();
-        for (const StackedLayer& layer : stack_) of_stack = without_empty(of_stack, *layer.layer);
-        counters += of_stack;
-    };
-    warp(StackBase::nothing);
-    if (beside_view_.empty()) return;
+}
+
+// Stacks those that do, where they have something to show, and holds what must not change. False where none has.
+bool LayerComposition::begin_beside_view(const Layer& view, const WarpTarget& target, DisplayFrame& into) {
+    if (beside_view_.empty()) return false;
     float farthest_near = 0.0F;
     for (const StackedLayer& layer : stack_) {
         if (layer.layer->content.shell > 0) farthest_near = std::max(farthest_near, layer.nearest_depth);
     }
     stack_beside_view(view, beside_view_, target, into);
-    if (stack_.empty()) return;
+    if (stack_.empty()) return false;
     hold_what_the_view_shows(view, target, farthest_near, into);
-    warp(StackBase::picture);
+    return true;
+}
+
+void LayerComposition::finish_beside_view(DisplayFrame& into) const {
     const std::span<float> depths = into.depth.pixels();
     const std::span<const float> shown = shown_depth_.pixels();
     for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = depths[i] > 1.0F ? shown[i] : depths[i];

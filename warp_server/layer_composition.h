@@ -22,6 +22,15 @@ public:
     WarpCounters show(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
                       DisplayFrame& into);
 
+    /// show() in steps, for a method that has them. After begin_steps() the method's bands are stepped until nothing is
+    /// left, then next_stage() called, and both again as long as it returns true. `layers` and `target.movers` outlive
+    /// all of it.
+    void begin_steps(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target, int bands,
+                     DisplayFrame& into);
+    [[nodiscard]] bool next_stage();
+    /// What was left out, after the last stage.
+    [[nodiscard]] const WarpCounters& step_counters() const { return steps_.counters; }
+
     /// One layer more: warps `layer` and shows it in `into` where nothing is shown yet or where it is nearer. Only the
     /// part of the target is warped that the layer can reach and where something is missing.
     /// @param view  the frame's first layer
@@ -41,6 +50,23 @@ private:
                            const DisplayFrame& into);
     void hold_what_the_view_shows(const Layer& view, const WarpTarget& target, float farthest, DisplayFrame& into);
 
+    // The picture that is drawn in steps.
+    struct Steps {
+        WarpMethod* method = nullptr;
+        const Layer* view = nullptr;
+        WarpTarget target;
+        int bands = 1;
+        DisplayFrame* into = nullptr;
+        WarpCounters counters;
+        bool is_last = false;
+    };
+
+    void stack_all(std::span<const Layer* const> layers, const WarpTarget& target);
+    [[nodiscard]] bool begin_beside_view(const Layer& view, const WarpTarget& target, DisplayFrame& into);
+    void finish_beside_view(DisplayFrame& into) const;
+    [[nodiscard]] WarpCounters counters_of_stack(const WarpMethod& method) const;
+
+    Steps steps_;
     DisplayFrame scratch_;
     std::vector<StackedLayer> stack_;
     std::vector<const Layer*> beside_view_;

@@ -49,10 +49,10 @@ const DisplayFrame& StereoWarper::warp(const RenderedFrame& frame, const WarpTar
 void StereoWarper::warp_eyes(const RenderedFrame& frame, const WarpTarget& target) {
     frame_ = &frame;
     head_ = &target;
-    if (pool_) {
-        pool_->run(warp_eye_);
+    if (warpers_[0].can_step() && warpers_[1].can_step()) {
+        warp_in_turns();
     } else {
-        for (const Eye eye : kEyes) warp_eye(eye);
+        run(2, warp_eye_);
     }
     counters_ = {};
     held_ = {};
@@ -62,11 +62,44 @@ void StereoWarper::warp_eyes(const RenderedFrame& frame, const WarpTarget& targe
     }
 }
 
-void StereoWarper::warp_eye(Eye eye) {
+WarpTarget StereoWarper::target_of(Eye eye) const {
     WarpTarget target = *head_;
     target.camera = eye_camera(head_->camera, settings_.rig.eye(eye), head_->camera.world_from_eye);
     target.eye = eye;
-    warpers_[static_cast<std::size_t>(eye)].warp(*frame_, target);
+    return target;
+}
+
+void StereoWarper::warp_eye(Eye eye) { warpers_[static_cast<std::size_t>(eye)].warp(*frame_, target_of(eye)); }
+
+void StereoWarper::warp_in_turns() {
+    const int bands = pool_ ? pool_->threads() : 1;
+    for (const Eye eye : kEyes) {
+        warpers_[static_cast<std::size_t>(eye)].begin_steps(*frame_, target_of(eye), bands);
+    }
+    bool more = true;
+    while (more) {
+        run(bands, step_band_);
+        more = false;
+        for (FrameWarper& warper : warpers_) more = warper.next_stage() || more;
+    }
+    run(2, finish_eye_);
+}
+
+void StereoWarper::step_band(int band) {
+    bool more = true;
+    while (more) {
+        more = false;
+        for (FrameWarper& warper : warpers_) more = warper.step(band) || more;
+    }
+}
+
+// On the pool's threads, which are two, or one after the other.
+void StereoWarper::run(int count, const std::function<void(int)>& work) {
+    if (pool_) {
+        pool_->run(work);
+    } else {
+        for (int i = 0; i < count; ++i) work(i);
+    }
 }
 
 void StereoWarper::report_holes(const RenderedFrame& frame, const Camera& head, HoleFeedback& feedback) const {

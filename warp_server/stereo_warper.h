@@ -20,11 +20,14 @@ class BandPool;
 struct StereoSettings {
     StereoRig rig;
     EyeLayout layout = EyeLayout::side_by_side;
-    bool parallel = false;  ///< each eye on a thread of its own; not for GL methods, whose context has one thread
+    /// On two threads: half of both eyes each where the method has steps, else an eye each. Not for GL methods, whose
+    /// context has one thread.
+    bool parallel = false;
 };
 
 /// Both eyes always come from the same frame, the same head pose and the same placements: warp() gets each of them
-/// once. What methods prepared for a layer serves both eyes. Not movable once threads run: it is handed out by pointer.
+/// once. What methods prepared for a layer serves both eyes, and both draw each region of it in turn where the method
+/// has steps. Not movable once threads run: it is handed out by pointer.
 class StereoWarper final : public PictureMaker {
 public:
     /// Warpers of the same method, left and right.
@@ -62,6 +65,10 @@ public:
 
 private:
     void warp_eye(Eye eye);
+    void warp_in_turns();
+    void step_band(int band);
+    void run(int count, const std::function<void(int)>& work);
+    [[nodiscard]] WarpTarget target_of(Eye eye) const;
 
     StereoSettings settings_;
     std::atomic<EyeLayout> layout_;
@@ -75,6 +82,10 @@ private:
     const RenderedFrame* frame_ = nullptr;
     const WarpTarget* head_ = nullptr;
     std::function<void(int)> warp_eye_ = [this](int index) { warp_eye(static_cast<Eye>(index)); };
+    std::function<void(int)> step_band_ = [this](int band) { step_band(band); };
+    std::function<void(int)> finish_eye_ = [this](int index) {
+        warpers_[static_cast<std::size_t>(index)].finish_steps();
+    };
 };
 
 }  // namespace lw

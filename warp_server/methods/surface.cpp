@@ -12,6 +12,7 @@
 #include "warp_server/methods/surface_classify.h"
 #include "warp_server/methods/surface_kernels.h"
 #include "warp_server/methods/surface_split.h"
+#include "warp_server/stepped_warp.h"
 
 namespace lw {
 namespace {
@@ -26,16 +27,32 @@ struct PaintedLayer {
 // Draws one band of rows of the target; one per thread.
 class BandPainter {
 public:
-    void paint(std::span<const PaintedLayer> layers, RowRange band, StackBase base, DisplayFrame& out) {
+    // `layers` outlives the steps; at least one.
+    void begin(std::span<const PaintedLayer> layers, RowRange band, StackBase base, DisplayFrame& out) {
         canvas_.begin(out, band, base);
-        bool is_empty = base == StackBase::nothing;
-        for (const PaintedLayer& layer : layers) {
-            if (!is_empty && !may_show(layer)) continue;
-            draw(layer.input);
-            if (layers.size() > 1) canvas_.finish_layer();
-            is_empty = false;
+        layers_ = layers;
+        next_layer_ = 0;
+        next_region_ = 0;
+        is_empty_ = base == StackBase::nothing;
+    }
+
+    void begin_nothing() { layers_ = {}; }
+
+    // Draws the next region; false when all layers were drawn.
+    bool step() {
+        if (next_layer_ == layers_.size()) return false;
+        const PaintedLayer& layer = layers_[next_layer_];
+        if (next_region_ > 0 || is_empty_ || may_show(layer)) {
+            const PreparedSurface& prepared = *layer.input.prepared;
+            draw_region(layer.input, next_region_ == 0 ? SurfaceRegion{} : prepared.regions[next_region_ - 1],
+                        prepared.regions[next_region_]);
+            if (++next_region_ < prepared.regions.size()) return true;
+            if (layers_.size() > 1) canvas_.finish_layer();
+            is_empty_ = false;
         }
-        canvas_.finish();
+        next_region_ = 0;
+        if (++next_layer_ == layers_.size()) canvas_.finish();
+        return true;
     }
 
     /// Of the last picture.
@@ -55,15 +72,11 @@ private:
         return false;
     }
 
-    void draw(const PatchInput& input) {
-        SurfaceRegion begin;
-        for (const SurfaceRegion& end : input.prepared->regions) {
-            draw_list(input, input.prepared->blocks, {begin.blocks, end.blocks});
-            draw_list(input, input.prepared->patches, {begin.patches, end.patches});
-            draw_tile_list(input, {begin.tiles, end.tiles});
-            draw_list(input, input.prepared->edges, {begin.edges, end.edges});
-            begin = end;
-        }
+    void draw_region(const PatchInput& input, const SurfaceRegion& begin, const SurfaceRegion& end) {
+        draw_list(input, input.prepared->blocks, {begin.blocks, end.blocks});
+        draw_list(input, input.prepared->patches, {begin.patches, end.patches});
+        draw_tile_list(input, {begin.tiles, end.tiles});
+        draw_list(input, input.prepared->edges, {begin.edges, end.edges});
     }
 
     // Patches that reach behind the target eye are cut until their parts are before it, or are single cells.
@@ -99,19 +112,19 @@ private:
     }
 
     SurfaceCanvas canvas_;
+    std::span<const PaintedLayer> layers_;
+    std::size_t next_layer_ = 0;
+    std::size_t next_region_ = 0;  // of it
+    bool is_empty_ = true;         // nothing is in the picture yet
     std::vector<std::uint32_t> behind_;
     PatchList parts_;
     PatchList smaller_parts_;
     PatchList edge_parts_;
 };
 
-class SurfaceMethod final : public WarpMethod {
+class SurfaceMethod final : public WarpMethod, public SteppedWarp {
 public:
-    SurfaceMethod(std::string label, int threads)
-        : label_{std::move(label)},
-          pool_{threads},
-          painters_(static_cast<std::size_t>(threads)),
-          bands_(static_cast<std::size_t>(threads)) {}
+    SurfaceMethod(std::string label, int threads) : label_{std::move(label)}, pool_{threads} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
 
@@ -128,35 +141,52 @@ public:
 
     void warp_stack(std::span<const StackedLayer> layers, const WarpTarget& target, StackBase base,
                     DisplayFrame& out) override {
-        std::vector<std::shared_ptr<const PreparedLayer>> own;
+        begin_stack(layers, target, base, pool_.threads(), out);
+        if (!to_paint_.empty()) pool_.run(paint_band_);
+        finish_stack();
+    }
+
+    void begin_stack(std::span<const StackedLayer> layers, const WarpTarget& target, StackBase base, int bands,
+                     DisplayFrame& out) override {
         counters_ = {};
-        place_layers(layers, target, own);
+        out_ = &out;
+        place_layers(layers, target);
         if (base == StackBase::nothing) out.resize(target.camera.size_px);
-        std::span<const PaintedLayer> to_paint = layers_;
+        to_paint_ = layers_;
         if (base == StackBase::nothing && matrices_.front().all_identity()) {
             copy_source(layers.front().layer->cpu(), matrices_.front(), out);
-            if (layers.size() == 1) return;
-            to_paint = to_paint.subspan(1);
+            to_paint_ = to_paint_.subspan(1);
             base = StackBase::picture;
         }
-        to_paint_ = to_paint;
-        base_ = base;
-        out_ = &out;
+        bands_.resize(static_cast<std::size_t>(bands));
+        painters_.resize(bands_.size());
         place_bands(layers.front().layer->camera, target.camera, *layers_.front().input.prepared);
-        pool_.run(paint_band_);
+        for (std::size_t i = 0; i < bands_.size(); ++i) {
+            if (to_paint_.empty()) {
+                painters_[i].begin_nothing();
+            } else {
+                painters_[i].begin(to_paint_, bands_[i], base, out);
+            }
+        }
+    }
+
+    bool step(int band) override { return painters_[static_cast<std::size_t>(band)].step(); }
+
+    void finish_stack() override {
+        own_.clear();
+        if (to_paint_.empty()) return;
         for (const BandPainter& painter : painters_) {
             counters_.tiles_empty += painter.skips().empty;
             counters_.tiles_outside += painter.skips().outside;
             counters_.tiles_hidden += painter.skips().hidden;
             const std::vector<PartlyCovered>& partly = painter.partly_covered();
-            out.partly_covered.insert(out.partly_covered.end(), partly.begin(), partly.end());
+            out_->partly_covered.insert(out_->partly_covered.end(), partly.begin(), partly.end());
         }
     }
 
 private:
-    // What was prepared for each layer, and its matrices. `own` keeps what had to be made here.
-    void place_layers(std::span<const StackedLayer> layers, const WarpTarget& target,
-                      std::vector<std::shared_ptr<const PreparedLayer>>& own) {
+    // What was prepared for each layer, and its matrices.
+    void place_layers(std::span<const StackedLayer> layers, const WarpTarget& target) {
         if (matrices_.size() < layers.size()) matrices_.resize(layers.size());
         layers_.clear();
         for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -164,7 +194,7 @@ private:
             (void)checked_cpu_pixels(layer);
             std::shared_ptr<const PreparedLayer> made;
             const auto& prepared = prepared_or_made<PreparedSurface>(layer, made);
-            if (made != nullptr) own.push_back(std::move(made));
+            if (made != nullptr) own_.push_back(std::move(made));
             matrices_[i].build(layer, target, layers[i].depth_share);
             counters_ += bad_pixels(prepared.id_counts, matrices_[i]);
             layers_.push_back({{&prepared, &matrices_[i]}, layers[i].reach, layers[i].nearest_depth});
@@ -174,18 +204,18 @@ private:
     // Bands of the source that cost the same, moved to where their middles land when the head only turns: near enough
     // for sharing work, and the picture does not depend on it.
     void place_bands(const Camera& source, const Camera& target, const PreparedSurface& prepared) {
-        const int threads = pool_.threads();
+        const int count = static_cast<int>(bands_.size());
         const glm::mat3 source_from_target = background_source_from_target(source, target);
         const glm::mat3 target_from_source = glm::inverse(source_from_target);
         const int height = target.size_px.y;
-        for (int i = 0; i < threads; ++i) {
-            const RowRange rows = band_of_cost(prepared.cost_until, i, threads);
+        for (int i = 0; i < count; ++i) {
+            const RowRange rows = band_of_cost(prepared.cost_until, i, count);
             const glm::vec3 place = target_from_source * glm::vec3{0.5F * static_cast<float>(source.size_px.x),
                                                                    static_cast<float>(rows.end), 1.0F};
             const bool usable = place.z > 0.0F && std::abs(place.y) < 1e6F * place.z;
             const int previous = i == 0 ? 0 : bands_[static_cast<std::size_t>(i) - 1].end;
             const int end = usable ? std::clamp(static_cast<int>(place.y / place.z), previous, height) : previous;
-            bands_[static_cast<std::size_t>(i)] = {previous, i + 1 == threads ? height : end};
+            bands_[static_cast<std::size_t>(i)] = {previous, i + 1 == count ? height : end};
         }
     }
 
@@ -207,17 +237,19 @@ private:
 
     std::string label_;
     BandPool pool_;
-    std::vector<BandPainter> painters_;
+    std::vector<BandPainter> painters_;  // by band
     std::vector<RowRange> bands_;
-    std::vector<ObjectMatrices> matrices_;  // by layer of the stack
+
+    // Of the picture being drawn.
+    std::vector<std::shared_ptr<const PreparedLayer>> own_;  // what was not prepared before
+    std::vector<ObjectMatrices> matrices_;                   // by layer of the stack
     std::vector<PaintedLayer> layers_;
     std::span<const PaintedLayer> to_paint_;
-    StackBase base_ = StackBase::nothing;
     DisplayFrame* out_ = nullptr;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> paint_band_ = [this](int thread) {
-        painters_[static_cast<std::size_t>(thread)].paint(to_paint_, bands_[static_cast<std::size_t>(thread)], base_,
-                                                          *out_);
+    std::function<void(int)> paint_band_ = [this](int band) {
+        while (step(band)) {
+        }
     };
 };
 

@@ -13,7 +13,11 @@ public:
 
     void apply(DisplayFrame& frame, const FillGuide& /*guide*/) override {
         ends_.find(frame);
-        for (const HoleRun& run : ends_.runs()) copy(frame, run, ends_.background_of(frame, run).index);
+        for (std::size_t i = 0; i < ends_.runs().size(); ++i) {
+            const HoleRun& run = ends_.runs()[i];
+            prefetch(frame, ends_.runs()[std::min(i + kAhead, ends_.runs().size() - 1)]);
+            copy(frame, run, ends_.background_of(frame, run).index);
+        }
         // Last, because the passes above tell holes from reached pixels by it.
         for (const HoleRun& run : ends_.runs()) {
             const auto row = frame.coverage.row(run.y);
@@ -22,6 +26,20 @@ public:
     }
 
 private:
+    static constexpr std::size_t kAhead = 16;
+
+    // The ends of a short run, which most are: reading them was what the time went for.
+    static void prefetch(const DisplayFrame& frame, const HoleRun& run) {
+        const std::ptrdiff_t width = frame.depth.width();
+        const std::ptrdiff_t first = run.y * width + run.begin;
+        const auto last = static_cast<std::ptrdiff_t>(frame.depth.pixels().size()) - 1;
+        for (const std::ptrdiff_t pixel : {first - width, first - 1, first + width}) {
+            if (pixel < 0 || pixel > last) continue;
+            __builtin_prefetch(frame.depth.pixels().data() + pixel);
+            __builtin_prefetch(frame.colour.pixels().data() + pixel);
+        }
+    }
+
     static void copy(DisplayFrame& frame, const HoleRun& run, std::span<const std::int32_t> chosen) {
         const std::span<Rgba8> colours = frame.colour.pixels();
         const std::span<float> depths = frame.depth.pixels();

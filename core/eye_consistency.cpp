@@ -16,6 +16,11 @@ constexpr int kTile_px = 64;
 // to row, root mean square of values in [0, 1].
 constexpr double kFewestPairs = 512.0;
 constexpr double kFaintestSlope = 0.02;
+// And when its displacement is known so well, as a standard error in pixels: what edges scatter by, aliased or
+// interpolated, is no displacement. Parts with one sharp edge and little else read 0.03 px in pictures that lie right.
+constexpr double kMostUncertain_px = 0.02;
+// Neighbours scatter alike: so many pixels tell as much as one.
+constexpr double kPixelsAlike = 4.0;
 
 // Where the other eye sees a pixel's surface.
 struct Partner {
@@ -31,6 +36,19 @@ Image<Partner> partners_in(const SampledView& from, const SampledView& to, int t
         if (place.visibility == Visibility::seen) partners.at(x, y) = {place.position_px, place.weights};
     });
     return partners;
+}
+
+// Bilinear, of the four pixels around a place.
+std::array<double, 4> shares_at(const glm::dvec2& position_px) {
+    const glm::dvec2 part = position_px - 0.5 - glm::floor(position_px - 0.5);
+    return {(1.0 - part.x) * (1.0 - part.y), part.x * (1.0 - part.y), (1.0 - part.x) * part.y, part.x * part.y};
+}
+
+// Does the surface fill all of the place? Beside its edge another one, which lies elsewhere, is read too.
+bool is_inside_of_surface(const Partner& partner) {
+    const std::array<double, 4> shares = shares_at(partner.position_px);
+    return std::equal(shares.begin(), shares.end(), partner.weights.begin(),
+                      [](double share, float weight) { return std::abs(share - static_cast<double>(weight)) < 1e-3; });
 }
 
 // The four pixels around a place.
@@ -112,12 +130,19 @@ double slope_at(const Brightness& picture, int x, int y) {
 struct Displacement {
     double slopes = 0.0;  // sum of slope^2
     double products = 0.0;
+    double differences = 0.0;  // sum of difference^2
 
     void add(double first, double second, double slope) {
         slopes += slope * slope;
         products += slope * (first - second);
+        differences += (first - second) * (first - second);
     }
     [[nodiscard]] double px() const { return products / slopes; }
+    // Variance of px() over `count` pairs, from what the displacement does not explain of the differences.
+    [[nodiscard]] double variance_px2(double count) const {
+        const double unexplained = std::max(differences - products * products / slopes, 0.0);
+        return kPixelsAlike * unexplained / (count * slopes);
+    }
 };
 
 // One part of the picture: the pair as shown, and as it is in truth.
@@ -128,7 +153,8 @@ struct Tile {
 
     [[nodiscard]] bool tells() const {
         const double least = count * kFaintestSlope * kFaintestSlope;
-        return count >= kFewestPairs && shown.slopes > least && truth.slopes > least;
+        if (count < kFewestPairs || shown.slopes <= least || truth.slopes <= least) return false;
+        return shown.variance_px2(count) + truth.variance_px2(count) <= kMostUncertain_px * kMostUncertain_px;
     }
 };
 
@@ -140,14 +166,13 @@ struct EyeBrightness {
 void add_pair(const Brightness& from, const Brightness& to, glm::ivec2 pixel, const glm::dvec2& position_px,
               Displacement& displacement) {
     const Neighbours around{position_px, to.size_px()};
-    const glm::dvec2 part = position_px - 0.5 - glm::floor(position_px - 0.5);
+    const std::array<double, 4> shares = shares_at(position_px);
     double value = 0.0;
     double slope = 0.0;
     for (std::size_t k = 0; k < 4; ++k) {
         const glm::ivec2 at = around.at(k);
-        const double weight = ((k & 1U) != 0 ? part.x : 1.0 - part.x) * ((k >> 1U) != 0 ? part.y : 1.0 - part.y);
-        value += weight * static_cast<double>(to.at(at.x, at.y));
-        slope += weight * slope_at(to, at.x, at.y);
+        value += shares[k] * static_cast<double>(to.at(at.x, at.y));
+        slope += shares[k] * slope_at(to, at.x, at.y);
     }
     displacement.add(from.at(pixel.x, pixel.y), value, 0.5 * (slope + slope_at(from, pixel.x, pixel.y)));
 }
@@ -162,7 +187,9 @@ std::optional<double> vertical_disparity_px(const ShownEye& left, const ShownEye
     for (int y = 0; y < partners.height(); ++y) {
         for (int x = 0; x < partners.width(); ++x) {
             const Partner& partner = partners.at(x, y);
-            if (!partner.is_seen() || left.invented.at(x, y) != 0 || is_invented_at(right, partner)) continue;
+            if (!partner.is_seen() || !is_inside_of_surface(partner) || left.invented.at(x, y) != 0 ||
+                is_invented_at(right, partner))
+                continue;
             Tile& tile = sums.at(x / kTile_px, y / kTile_px);
             tile.count += 1.0;
             add_pair(from.shown, to.shown, {x, y}, partner.position_px, tile.shown);

@@ -25,8 +25,9 @@ struct EyeConsistency {
     double colour_excess = 0.0;
     /// Share of the pairs of which one pixel was made up and the other seen: the eyes compete.
     double rivalry_fraction = 0.0;
-    /// Mean over the parts of the picture of how far the pair is apart vertically beyond the truth's pair, pixels;
-    /// nothing where no part has enough texture to tell.
+    /// Mean over the parts of the picture of how far the pair is apart vertically beyond the truth's pair, pixels; over
+    /// the insides of surfaces in those parts whose texture tells it with a standard error of 0.02 px. Nothing where no
+    /// part does.
     std::optional<double> vertical_disparity_px;
 };
 

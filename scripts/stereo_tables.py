@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """The tables of docs/stereo.md, as Markdown, from reports of `latewarp replay --eyes stereo`.
 
-stereo_tables.py REPORT.json ...   (each with the baselines scanline, two-renders and fresh-same)
+stereo_tables.py REPORT.json ...   (each with the baselines scanline, two-renders and fresh-same; REPORT.shells.json
+beside it is the same run with shells)
 """
 
 import json
@@ -9,7 +10,7 @@ import pathlib
 import sys
 
 COLUMNS = ("scene, trace", "mode", "SSIM to `fresh-same`, left / right", "SSIM to truth, left / right",
-           "unreached, left / right", "rivalry", "vertical, px", "colour excess", "stale shading, of FLIP")
+           "unreached, left / right", "rivalry", "vertical, px (floor)", "colour excess", "stale shading, of FLIP")
 
 
 def mean(distribution, digits):
@@ -27,10 +28,10 @@ def stale_share(eyes):
     return f"{100.0 * stale / sum(error['flip']['mean'] for error in errors):.1f} %"
 
 
-def row(name, mode, eyes):
-    cells = (name, f"`{mode}`", both(eyes, "ssim_to_fresh_same", 4), both(eyes, "ssim", 4),
+def row(name, mode, eyes, floor):
+    cells = (name, mode, both(eyes, "ssim_to_fresh_same", 4), both(eyes, "ssim", 4),
              both(eyes, "hole_fraction", 2, 100.0) + " %", mean({"mean": 100.0 * eyes["rivalry_fraction"]["mean"]}, 2) + " %",
-             mean(eyes["vertical_disparity_px"], 3), mean(eyes["colour_excess"], 4), stale_share(eyes))
+             f"{mean(eyes['vertical_disparity_px'], 3)} ({mean(floor, 3)})", mean(eyes["colour_excess"], 4), stale_share(eyes))
     return "| " + " | ".join(cells) + " |"
 
 
@@ -40,9 +41,13 @@ def main():
     for path in map(pathlib.Path, sys.argv[1:]):
         report = json.loads(path.read_text())
         name = path.stem.replace(".", ", ", 1)
-        print(row(name, "one-render", report["stereo"]))
+        floor = report["baselines"]["fresh-same"]["stereo"]["vertical_disparity_px"]
+        print(row(name, "`one-render`", report["stereo"], floor))
+        shells = path.with_suffix(".shells.json")
+        if shells.exists():
+            print(row("", "`one-render`, shells", json.loads(shells.read_text())["stereo"], floor))
         for mode in ("scanline", "two-renders"):
-            print(row("", mode, report["baselines"][mode]["stereo"]))
+            print(row("", f"`{mode}`", report["baselines"][mode]["stereo"], floor))
 
 
 if __name__ == "__main__":

@@ -105,6 +105,21 @@ TEST_F(EyeConsistencyTest, APictureThatIsLowerInOneEyeIsMeasured) {
     }
 }
 
+TEST_F(EyeConsistencyTest, WhatScattersIsNoDisplacement) {
+    // Each pixel a tenth brighter or darker, in one eye alone: as edges do that are sampled otherwise.
+    const auto scattered = [](double x, double y) {
+        const auto number = static_cast<unsigned>(x) * 73856093U ^ static_cast<unsigned>(y) * 19349663U;
+        return waves(x, y) + 0.1 * ((number >> 4U) % 3U - 1.0);
+    };
+    const auto result = judged(left_truth_, painted(right_, 2.0, scattered));
+    ASSERT_TRUE(result.has_value());
+    EXPECT_GT(result->colour_excess, 0.03);
+    // The part is left out, or known to lie right within its standard error.
+    if (result->vertical_disparity_px) {
+        EXPECT_LT(*result->vertical_disparity_px, 0.04);
+    }
+}
+
 TEST_F(EyeConsistencyTest, WithoutTextureNoVerticalDisparityIsKnown) {
     const auto plain = [](double, double) { return 0.5; };
     left_truth_ = painted(left_, 0.0, plain);

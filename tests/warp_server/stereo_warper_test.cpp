@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/metrics.h"
 #include "tests/warp_server/analytic_scene.h"
 #include "tests/warp_server/image_assertions.h"
@@ -83,6 +85,49 @@ TEST(StereoWarper, BothEyesOnTheirOwnThreadsShowTheSame) {
     const auto movers = scene.movers(0.1);
     const ColourImage expected = one_by_one->warp(frame, {now, movers}).colour;
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(at_once->warp(frame, {now, movers}).colour == expected);
+}
+
+// Everything of the street as static world, as item `item` of the nearest shell.
+std::shared_ptr<Layer> street_item(const Camera& camera, std::uint32_t item) {
+    auto layer = std::make_shared<Layer>(AnalyticScene::street().draw(camera, 0.0));
+    layer->movers = {};
+    std::ranges::fill(layer->cpu().object_id.pixels(), ObjectId{0});
+    layer->content = {item, 0, true, 1.0F, camera.near_m};
+    return layer;
+}
+
+TEST(StereoWarper, EyesThatTakeTurnsShowWhatEachShowsAlone) {
+    const Camera head = street_camera(kSize_px);
+    RenderedFrame view_alone;
+    view_alone.layers = {street_item(head, 0)};
+    // Past the view's edge a tile stands in, which is a stage of its own.
+    RenderedFrame with_tile = view_alone;
+    with_tile.layers.push_back(street_item(moved(head, {0.0, 0.0, 0.0}, 60.0), 1));
+    const Camera turned = moved(head, {0.02, 0.0, 0.0}, 25.0);
+    for (const bool parallel : {false, true}) {
+        const auto warper = warper_for(StereoMode::one_render, "surface", {.rig = rig(), .parallel = parallel});
+        ASSERT_TRUE(warper->eye(Eye::left).can_step());
+        double holes = 1.0;
+        for (const RenderedFrame* frame : {&view_alone, &with_tile}) {
+            warper->warp_eyes(*frame, {turned, {}});
+            for (const Eye eye : kEyes) {
+                auto alone = FrameWarper::create("surface", "nearest-background");
+                ASSERT_TRUE(alone.ok());
+                const DisplayFrame& expected = alone->warp(*frame, {eye_of(turned, eye), {}, eye});
+                const FrameWarper& shown = warper->eye(eye);
+                EXPECT_TRUE(shown.display_frame().colour == expected.colour) << name_of(eye) << ", " << parallel;
+                EXPECT_TRUE(shown.display_frame().coverage == expected.coverage) << name_of(eye) << ", " << parallel;
+                if (!parallel) {
+                    EXPECT_EQ(shown.counters().tiles_outside, alone->counters().tiles_outside);
+                }
+            }
+            const double fewer = warper->eye(Eye::left).hole_fraction();
+            EXPECT_LT(fewer, holes);
+            holes = fewer;
+        }
+        warper->warp_eyes(with_tile, {turned, {}});
+        EXPECT_EQ(warper->counters().pictures_reused, 2U) << "nothing moved";
+    }
 }
 
 TEST(StereoWarper, ReportsTheHolesOfEachEyeWhereThatEyeLooks) {

@@ -9,6 +9,20 @@ struct Options;
 
 class Declarer;
 
+/// --source-samples, --source-density: how finely the client draws.
+void declare_source(Declarer& declare);
+/// --guard-band: what it draws around the picture.
+void declare_guard_band(Declarer& declare, bool auto_allowed);
+/// --no-skip, --min-pixels, --draw-order, --sorting-buffer, --reveal-margin: what it draws, in which order.
+void declare_skip(Declarer& declare);
+
+/// --source-pose, --app-hz, --display-hz, --predict, --tracker-hz, --lead, --app-latency, --seconds.
+void declare_timing(Declarer& declare);
+/// --strips, --load.
+void declare_strips_and_load(Declarer& declare);
+/// --inject: delays for the harness.
+void declare_inject(Declarer& declare);
+
 /// --suite, --quick, --data, --part, --merge: what `bench` measures, and on what.
 void declare_bench_run(Declarer& declare);
 

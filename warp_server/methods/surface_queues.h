@@ -42,6 +42,7 @@ public:
     /// The lanes whose bits are in `wanted`, of the pixels from number `pixel` on, show the source at the taps. Those
     /// of them in `equal` have the depth that was there.
     HWY_INLINE void push(std::uint32_t wanted, std::uint32_t equal, std::size_t pixel, const Taps& taps) {
+        __builtin_prefetch(colours_ + pixel, 1);
         Run& run = runs_[count_++];
         run.wanted = wanted;
         run.equal = equal;
@@ -127,10 +128,9 @@ public:
     template <class M>
     HWY_INLINE void push(M wanted, hn::VFromD<DI> pixel, VF depth, VF x, VF y) {
         // What flush() will touch is on its way by then: waiting for it was half of the time.
-        const auto near_first = static_cast<std::size_t>(hn::GetLane(pixel));
-        __builtin_prefetch(depths_ + near_first, 1);
-        __builtin_prefetch(colours_ + near_first, 1);
-        reader_.prefetch(hn::GetLane(x), hn::GetLane(y));
+        // Lanes are in rows of one place, or in places near each other: two of them ask for most.
+        prefetch<0>(pixel, x, y);
+        prefetch<kMaxLanes / 2>(pixel, x, y);
         append_lanes(DI{}, pixel, wanted, pixel_ + count_);
         append_lanes(DF{}, depth, wanted, depth_ + count_);
         append_lanes(DF{}, x, wanted, x_ + count_);
@@ -162,6 +162,16 @@ public:
     }
 
 private:
+    // What lane `kLane` shows, or would: any values.
+    template <std::size_t kLane>
+    HWY_INLINE void prefetch(hn::VFromD<DI> pixel, VF x, VF y) const {
+        if (kLane >= hn::Lanes(DF{})) return;
+        const std::ptrdiff_t at = hn::ExtractLane(pixel, kLane);
+        __builtin_prefetch(depths_ + at, 1);
+        __builtin_prefetch(colours_ + at, 1);
+        reader_.prefetch(hn::ExtractLane(x, kLane), hn::ExtractLane(y, kLane));
+    }
+
     // Pixels that follow each other mostly come from one tile or one row of cells.
     [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
 #if LW_HAS_WIDE_LOOKUPS

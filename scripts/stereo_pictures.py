@@ -60,6 +60,8 @@ def main():
         left = frame_of(work / "files", f"{label}.left")
         details.append(beside([png_crops.crop(left, *part, 3) for part in DETAILS]))
     png_crops.write(out / "left_eye.png", below(details))
+    turned = [frame_of(work / "shells", label) for label in ("two-renders", "surface", "truth")]
+    png_crops.write(out / "shells.png", below(turned))
     helmet = work / "helmet"
     shown, same = (png_crops.crop(frame_of(helmet, f"{label}.left"), *HELMET, 1) for label in ("surface", "fresh-same"))
     png_crops.write(out / "highlight.png", beside([same, shown, difference(same, shown)]))

@@ -1,6 +1,6 @@
 #pragma once
 /// A warp that is drawn bit by bit. Two eyes that take turns with the bits of one source find each in the processor's
-/// cache: both together take 1.6 times as long as one, one after the other twice.
+/// cache.
 
 #include <span>
 

@@ -10,10 +10,12 @@ namespace lw {
 namespace {
 
 constexpr glm::ivec2 kSize_px{512, 512};
-constexpr int kFadeFrames = 7;  ///< eight steps of two of the dither's sixteen levels
-constexpr int kCellPx = 4;      ///< the eye averages over the dither's cell
-/// Two samples per pixel and axis: of one, the noise of sampling hides what updates do.
-constexpr int kSamples = 2;
+constexpr int kFadeFrames = 15;    ///< eight steps of the new version, eight of the old one
+constexpr int kFramesBefore = 16;  ///< not judged: until as many fades end as begin
+constexpr int kCellPx = 4;
+/// What a client draws unless told otherwise. With more, a pixel shows one of the surfaces in it, which changes at
+/// once.
+constexpr int kSamples = 1;
 
 /// Pictures of one way to draw, and what changes from one to the next beyond what changes in the meshes' pictures.
 class FlickerMeter {
@@ -68,12 +70,13 @@ FlickerPoint point_of(const BillboardSettings& settings) {
     return point;
 }
 
-Status measure_moving(const BillboardStage& stage, const BillboardSettings& settings,
+Status measure_moving(const BillboardStage& stage, const BillboardSettings& settings, const std::vector<Camera>& before,
                       const std::vector<Camera>& cameras, const std::vector<ColourImage>& meshes,
                       std::vector<FlickerPoint>& into) {
     auto trial = stage.trial("", settings);
     if (!trial.ok()) return trial.error();
-    for (int k = 0; k < 5; ++k) (void)trial->draw(cameras.front(), 0.0, kSamples);
+    for (int k = 0; k < 5; ++k) (void)trial->draw(before.front(), 0.0, kSamples);
+    for (const Camera& camera : before) (void)trial->draw(camera, 0.0, kSamples);
     FlickerPoint point = point_of(settings);
     FlickerMeter meter{trial->draw(cameras.front(), 0.0, kSamples)};
     PopMeter pops;
@@ -92,7 +95,10 @@ Status measure_moving(const BillboardStage& stage, const BillboardSettings& sett
 }  // namespace
 
 Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& bench) {
-    const std::vector<Camera> cameras = stage.cameras(22.6, quick ? 22.8 : 23.8, 0.05, kSize_px);
+    constexpr double kFrom_s = 22.8;
+    constexpr double kStep_s = 0.05;
+    const std::vector<Camera> cameras = stage.cameras(kFrom_s, kFrom_s + (quick ? 0.2 : 0.8), kStep_s, kSize_px);
+    const std::vector<Camera> before = stage.cameras(kFrom_s - kFramesBefore * kStep_s, kFrom_s, kStep_s, kSize_px);
     auto meshes = stage.meshes(cameras, kSamples);
     if (!meshes.ok()) return meshes.error();
     for (const BillboardMode mode : {BillboardMode::flat, BillboardMode::warped}) {
@@ -100,9 +106,9 @@ Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& 
             BillboardSettings settings = by_error(mode, 0.4);
             settings.fade_frames = fade_frames;
             settings.keep_replaced = true;
-            settings.capacities = {1024, 1024, 1024,
-                                   1024, 512,  128};  // old and new versions, and those of the last frame
-            const Status status = measure_moving(stage, settings, cameras, *meshes, bench.flicker);
+            // Old and new versions, and those of the last frame.
+            settings.capacities = {1024, 1024, 1024, 1024, 512, 128};
+            const Status status = measure_moving(stage, settings, before, cameras, *meshes, bench.flicker);
             if (!status.ok()) return status;
         }
     }

@@ -13,21 +13,21 @@ namespace {
 /// How much is measured.
 struct Plan {
     glm::ivec2 path_px{1024, 1024};
-    double path_step_s = 0.9;
+    double path_step_s = 1.2;
     int quality_every = 2;  ///< frames
     double overview_from_s = 8.0;
-    double overview_to_s = 20.05;  ///< 120 frames
+    double overview_to_s = 19.05;  ///< 110 frames
     glm::ivec2 sweep_px{512, 512};
     double sweep_from_s = 18.0;  ///< down from the overview until most are near
     double sweep_to_s = 26.1;
-    double sweep_step_s = 0.75;
+    double sweep_step_s = 0.9;
     std::vector<double> flat_caps_px{1.0, 2.0, 4.0};
     std::vector<double> warped_caps_px{1.0, 2.0, 5.0, 10.0, 1000.0};
     std::vector<double> angle_scales{1.0, 4.0};  ///< the document's, and about those of its figures 11 and 12
     std::vector<double> shares{0.1, 0.2, 0.4};
     double walk_at_s = 14.0;  ///< from the overview
-    int walk_frames = 11;
-    double walk_step_m = 1.0;
+    int walk_frames = 7;
+    double walk_step_m = 1.5;
     double budget_from_s = 21.5;  ///< at 10 Hz, since a budget slices what one frame brings
     double budget_to_s = 23.75;
     double budget_step_s = 0.1;

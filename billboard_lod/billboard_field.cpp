@@ -31,7 +31,7 @@ enum class Shown : std::uint8_t { nothing, mesh, billboard };
 struct Look {
     std::optional<Version> current;
     std::optional<Version> previous;  ///< while it fades out
-    float share = 1.0f;               ///< of the pixels that show `current`
+    float fade = 1.0f;                ///< 0: only `previous` shows, 1: only `current`
 };
 
 struct Entry {
@@ -48,6 +48,10 @@ struct Entry {
 };
 
 glm::dvec3 right_of(const Camera& camera) { return camera.world_from_eye.orientation * glm::dvec3{1.0, 0.0, 0.0}; }
+
+constexpr float kReplacesNearer = 0.002f;  ///< share of the depth; 0.0007 and 0.005 flicker more
+/// What still fades in would jump if it was drawn anew; it may be off by so many times the cap.
+constexpr double kDueWhileFading = 2.0;
 
 bool finite(const glm::dmat4& m) {
     for (int column = 0; column < 4; ++column) {
@@ -110,8 +114,11 @@ public:
         for (const Entry& entry : entries_) {
             if (entry.shown != Shown::billboard) continue;
             const Look look = withholds_ && entry.before.current ? entry.before : look_of(entry);
-            append(entry, *look.current, part, 0.0f, look.share);
-            if (look.previous) append(entry, *look.previous, part, look.share, 1.0f);
+            // The new version comes in over the old one, and then the old one goes where the new one does not cover it:
+            // nowhere does what lies behind both shine through.
+            const float fade = look.fade;
+            append(entry, *look.current, part, std::min(2.0f * fade, 1.0f), look.previous.has_value());
+            if (look.previous) append(entry, *look.previous, part, std::min(2.0f - 2.0f * fade, 1.0f), false);
         }
         pass_.draw(quads_, atlas_, part);
     }
@@ -183,8 +190,7 @@ private:
                 queue(creations_, score, e);
             } else {
                 const double due = update_priority(entry);
-                // What is still fading in would jump if it was drawn anew.
-                if (due < (entry.previous ? 2.0 : 1.0)) {
+                if (due < (entry.previous ? kDueWhileFading : 1.0)) {
                     entry.shown = Shown::billboard;
                 } else {
                     queue(updates_, due, e);
@@ -411,13 +417,13 @@ private:
         return record;
     }
 
-    void append(const Entry& entry, const Version& version, const Camera& part, float shown_from, float shown_to) {
+    void append(const Entry& entry, const Version& version, const Camera& part, float opacity, bool replaces) {
         std::optional<shader::BillboardRecord> record = quad_of(entry, version, part);
         if (!record) return;
-        record->extent.y = shown_from;
-        record->extent.z = shown_to;
+        // By more than two versions of a surface differ, so that the new one is seen.
+        if (replaces) record->extent.y = 1.0f + kReplacesNearer;
         record->object.x = entry.object.id;
-        quads_.push_back({version.slot.level, *record});
+        quads_.push_back({version.slot.level, *record, opacity, replaces});
     }
 
     void begin_stage() {

@@ -1,5 +1,7 @@
 #include "billboard_lod/billboard_pass.h"
 
+#include <algorithm>
+#include <compare>
 #include <string>
 
 #include "gl/stream_buffer.h"
@@ -23,26 +25,46 @@ glm::vec4 ndc_from_tangent(const FovTangents& fov) {
     return glm::vec4{glm::dvec4{2.0 / size, -sum / size}};
 }
 
-bool dithered(const DrawnQuad& quad) { return quad.record.extent.y > 0.0f || quad.record.extent.z < 1.0f; }
+/// What is drawn at once, in the order in which it is drawn.
+struct Batch {
+    bool replaces;
+    bool blended;
+    float opacity;
+    std::size_t level;
+
+    friend auto operator<=>(const Batch&, const Batch&) = default;
+};
+
+Batch batch_of(const DrawnQuad& quad) { return {quad.replaces, quad.opacity < 1.0f, quad.opacity, quad.level}; }
+
+/// Over the surfaces of the G-buffer; its ids are integers, which are never blended.
+void blend(float opacity) {
+    constexpr GLuint kSurfaces = 3;
+    for (GLuint i = 0; i < kSurfaces; ++i) {
+        if (opacity < 1.0f) {
+            glEnablei(GL_BLEND, i);
+        } else {
+            glDisablei(GL_BLEND, i);
+        }
+    }
+    glBlendColor(0.0f, 0.0f, 0.0f, opacity);
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+}
 
 }  // namespace
 
 Result<BillboardPass> BillboardPass::create(AtlasFormat format, QuadExpansion expansion, bool warped) {
     BillboardPass pass;
     pass.expansion_ = expansion;
-    for (std::size_t dither = 0; dither < 2; ++dither) {
-        std::string defines{defines_of(format)};
-        if (warped) defines += "#define WARPED\n";
-        if (expansion == QuadExpansion::instances) defines += "#define INSTANCED\n";
-        if (dither == 1) defines += "#define DITHERED\n";
-        auto program = compile(expansion, defines);
-        if (!program.ok()) return program.error();
-        Variant& variant = pass.variants_[dither];
-        variant.program = std::move(*program);
-        variant.ndc_from_tangent = variant.program.uniform("u_ndc_from_tangent");
-        variant.near_m = variant.program.uniform("u_near_m");
-        if (expansion != QuadExpansion::geometry) variant.first = variant.program.uniform("u_first");
-    }
+    std::string defines{defines_of(format)};
+    if (warped) defines += "#define WARPED\n";
+    if (expansion == QuadExpansion::instances) defines += "#define INSTANCED\n";
+    auto program = compile(expansion, defines);
+    if (!program.ok()) return program.error();
+    pass.program_ = std::move(*program);
+    pass.ndc_from_tangent_ = pass.program_.uniform("u_ndc_from_tangent");
+    pass.near_m_ = pass.program_.uniform("u_near_m");
+    if (expansion != QuadExpansion::geometry) pass.first_ = pass.program_.uniform("u_first");
     pass.records_ = gl::make_stream_buffer();
     pass.active_ = gl::make_stream_buffer();
     pass.vertex_array_ = gl::make_vertex_array();
@@ -54,25 +76,11 @@ void BillboardPass::draw(std::span<const DrawnQuad> quads, const BillboardAtlas&
     if (quads.empty()) return;
     record_list_.clear();
     active_list_.clear();
-    for (const DrawnQuad& quad : quads) record_list_.push_back(quad.record);
-    struct Range {
-        std::size_t level;
-        std::size_t dither;
-        std::size_t first;
-        std::size_t count;
-    };
-    std::vector<Range> ranges;
-    for (std::size_t level = 0; level < kBillboardDimensions.size(); ++level) {
-        for (std::size_t dither = 0; dither < 2; ++dither) {
-            const std::size_t first = active_list_.size();
-            for (std::size_t i = 0; i < quads.size(); ++i) {
-                if (quads[i].level == level && dithered(quads[i]) == (dither == 1)) {
-                    active_list_.push_back(static_cast<std::uint32_t>(i));
-                }
-            }
-            if (active_list_.size() > first) ranges.push_back({level, dither, first, active_list_.size() - first});
-        }
+    for (const DrawnQuad& quad : quads) {
+        active_list_.push_back(static_cast<std::uint32_t>(record_list_.size()));
+        record_list_.push_back(quad.record);
     }
+    std::ranges::stable_sort(active_list_, {}, [&](std::uint32_t i) { return batch_of(quads[i]); });
     gl::replace(records_, record_list_);
     gl::replace(active_, active_list_);
     glBindBufferBase(GL_SHADER_STORAGE_BUFFER, shader::kBindingBillboards, records_.id());
@@ -81,25 +89,28 @@ void BillboardPass::draw(std::span<const DrawnQuad> quads, const BillboardAtlas&
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_TRUE);
-    for (const Range& range : ranges) {
-        const Variant& variant = variants_[range.dither];
-        variant.program.use();
-        variant.program.set(variant.ndc_from_tangent, ndc_from_tangent(camera.fov));
-        variant.program.set(variant.near_m, static_cast<float>(camera.near_m));
-        atlas.bind_textures(range.level);
-        draw_level(variant, range.first, range.count);
+    program_.use();
+    program_.set(ndc_from_tangent_, ndc_from_tangent(camera.fov));
+    program_.set(near_m_, static_cast<float>(camera.near_m));
+    for (std::size_t first = 0, end = 0; first < active_list_.size(); first = end) {
+        const Batch batch = batch_of(quads[active_list_[first]]);
+        while (end < active_list_.size() && batch_of(quads[active_list_[end]]) == batch) ++end;
+        blend(batch.opacity);
+        atlas.bind_textures(batch.level);
+        draw_range(first, end - first);
     }
+    blend(1.0f);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(0);
 }
 
-void BillboardPass::draw_level(const Variant& variant, std::size_t first, std::size_t count) const {
+void BillboardPass::draw_range(std::size_t first, std::size_t count) const {
     const auto quads = static_cast<GLsizei>(count);
     if (expansion_ == QuadExpansion::geometry) {
         glDrawElements(GL_POINTS, quads, GL_UNSIGNED_INT, gl::buffer_offset(first * sizeof(std::uint32_t)));
         return;
     }
-    variant.program.set(variant.first, static_cast<int>(first));
+    program_.set(first_, static_cast<int>(first));
     if (expansion_ == QuadExpansion::instances) {
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, quads);
     } else {

@@ -43,7 +43,7 @@ void set_slot_and_depth(shader::BillboardRecord& record, const DrawnBillboard& b
     const DepthCoding coding = depth_coding(billboard.nearest_m, billboard.farthest_m);
     record.slot = glm::vec4{glm::vec2{layout.slot_origin_px(slot)}, glm::vec2{billboard.grid.size}};
     record.depth = {static_cast<float>(coding.scale), static_cast<float>(coding.offset), 0.0f, 0.0f};
-    record.extent.z = 1.0f;
+    record.extent.y = 1.0f;
 }
 
 /// Texels that the ray of now through the middle of the billboard crosses between the two distances.

@@ -24,23 +24,13 @@ noperspective in vec2 v_texel;
 #endif
 flat in vec4 v_slot;
 flat in vec3 v_depth;
-flat in vec2 v_shown;
+flat in float v_nearer;  // a version that fades in lies before the one that it replaces
 flat in uint v_object_id;
 
 layout(location = 0) out vec4 o_albedo_roughness;
 layout(location = 1) out vec2 o_normal;
 layout(location = 2) out vec4 o_emissive_metallic;
 layout(location = 3) out uint o_object_id;
-
-#ifdef DITHERED
-// Two versions of a billboard share a pixel's neighbourhood by this order; each level occurs once in 4 x 4.
-float dither_level() {
-    uvec2 p = uvec2(gl_FragCoord.xy) & 3u;
-    uint x = p.x ^ p.y;
-    uint level = ((x & 1u) << 3) | ((p.y & 1u) << 2) | (x & 2u) | ((p.y & 2u) >> 1);
-    return (float(level) + 0.5) * (1.0 / 16.0);
-}
-#endif
 
 #ifdef WARPED
 struct Candidate {
@@ -86,19 +76,14 @@ void main() {
         }
     }
     if (q <= 0.0) discard;
-    gl_FragDepth = u_near_m * q;
+    gl_FragDepth = u_near_m * q * v_nearer;
 #else
     ivec2 texel = ivec2(v_slot.xy + clamp(floor(v_texel), vec2(0.0), v_slot.zw - 1.0));
     float stored = texelFetch(u_depth, texel, 0).r;
     if (stored == 0.0) discard;
     float distance_m = 1.0 / (stored * v_depth.x + v_depth.y) + v_depth.z;
     if (distance_m < u_near_m) discard;
-    gl_FragDepth = u_near_m / distance_m;
-#endif
-
-#ifdef DITHERED
-    float level = dither_level();
-    if (level < v_shown.x || level >= v_shown.y) discard;
+    gl_FragDepth = u_near_m / distance_m * v_nearer;
 #endif
 
 #ifdef PACKED

@@ -12,7 +12,7 @@ noperspective out vec2 v_texel;
 // lane.
 flat out vec4 v_slot;
 flat out vec3 v_depth;
-flat out vec2 v_shown;
+flat out float v_nearer;
 flat out uint v_object_id;
 
 void emit_corner(BillboardRecord billboard, vec2 corner) {
@@ -31,6 +31,6 @@ void emit_corner(BillboardRecord billboard, vec2 corner) {
 #endif
     v_slot = billboard.slot;
     v_depth = billboard.depth.xyz;
-    v_shown = billboard.extent.yz;
+    v_nearer = billboard.extent.y;
     v_object_id = billboard.object.x;
 }

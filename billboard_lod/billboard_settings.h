@@ -34,7 +34,7 @@ struct BillboardSettings {
     int max_creations = 64;             ///< per frame; the rest are meshes in this one
     int max_updates = 256;              ///< per frame; the rest are meshes in this one
     int texels_per_px = 3;              ///< a billboard's texels per pixel and axis when it is drawn, at least; 1 to 8
-    int fade_frames = 0;                ///< frames over which an updated billboard fades in over its old version; 0: at once
+    int fade_frames = 0;                ///< frames over which a new version fades in over the old one; 0: at once
     double budget_ms = 0.0;             ///< estimated time for updates per frame; 0: no limit
     std::uint64_t min_triangles = 256;  ///< objects with fewer are drawn as fast as their quads
     /// Flat billboards beyond show no depth of their own, only their plane's: what a smaller texel without depth gives.

@@ -11,6 +11,7 @@
 #include "apps/app_load.h"
 #include "apps/clip_recorder.h"
 #include "apps/demo_controls.h"
+#include "apps/demo_overlay.h"
 #include "apps/interrupt.h"
 #include "apps/real_clock.h"
 #include "apps/scene_mover_feed.h"
@@ -30,7 +31,6 @@ namespace {
 
 // How often the main thread looks for Ctrl-C and the end, and how often it samples a viewer's hands.
 constexpr Duration kWatchPeriod = std::chrono::milliseconds{10};
-constexpr Duration kOverlayPeriod = std::chrono::milliseconds{100};
 constexpr Duration kHandsPeriod = std::chrono::milliseconds{2};
 // Room for the refreshes of a run that overruns its time a little.
 constexpr std::size_t kSpareRecords = 1024;
@@ -71,7 +71,6 @@ private:
     void follow_keys();
     void show_next_layout();
     void show_overlay(TimePoint now);
-    void note_record(const DisplayRecord& record);
     [[nodiscard]] bool is_over(TimePoint& end) const;
 
     void client_thread();
@@ -136,20 +135,10 @@ private:
     const gl::Context* client_context_ = nullptr;
 
     // The demo's window only.
-    struct Latest {
-        std::atomic<double> motion_to_photon_ms{0.0};
-        std::atomic<double> frame_age_ms{0.0};
-        std::atomic<double> warp_ms{0.0};
-        std::atomic<double> missed_of_1000{0.0};
-    };
     DemoControls controls_;
     SwitchingMethod* demo_method_ = nullptr;  ///< the warper's
     std::unique_ptr<ClipRecorder> clip_;
-    Latest latest_;
-    TimePoint overlay_shown_at_;
-    TimePoint rate_counted_at_;
-    double rate_counted_ = 0.0;
-    double app_hz_ = 0.0;
+    DemoOverlay overlay_{options_.size_px, options_.display_hz};
     std::size_t layout_ = 0;  ///< which the key chose last
 
     bool realtime_allowed_ = false;
@@ -267,7 +256,7 @@ void LiveSession::follow_keys() {
         if (key == 'M') ++controls_.method;
         if (key == 'H') controls_.holes_shown = !controls_.holes_shown;
         if (key == 'F') controls_.renderer_frozen = !controls_.renderer_frozen;
-        if (key == 'C') controls_.false_colours = !controls_.false_colours;
+        if (key == 'L') controls_.false_colours = !controls_.false_colours;
         if (key == 'O') controls_.overlay_shown = !controls_.overlay_shown;
         if (key == 'R') controls_.recording = !controls_.recording;
         if (key == 'T') show_next_layout();
@@ -276,7 +265,7 @@ void LiveSession::follow_keys() {
         if (key == '-') controls_.app_rate = rate == 0 ? 0 : rate - 1;
     }
     if (keys.empty()) return;
-    overlay_shown_at_ = TimePoint{};
+    overlay_.outdate();
     ClientLoop* client = running_client_;
     if (client == nullptr) return;
     client->set_frozen(controls_.renderer_frozen);
@@ -293,50 +282,12 @@ void LiveSession::show_next_layout() {
 }
 
 void LiveSession::show_overlay(TimePoint now) {
-    if (now - overlay_shown_at_ < kOverlayPeriod) return;
-    overlay_shown_at_ = now;
-    const int scale = std::max(1, options_.size_px.x / 512);
-    const double rate_hz = DemoControls::kAppRates_hz[controls_.app_rate];
+    if (!overlay_.is_due(now)) return;
     const std::vector<std::string> labels =
         demo_method_ != nullptr ? demo_method_->labels() : std::vector<std::string>{options_.method};
-    const std::string& method = labels[controls_.method % labels.size()];
-    const std::vector<std::string> help{
-        fmt::format("M METHOD: {}   F {}   +/- CLIENT: {}   H HOLES{}   C SHELLS", method,
-                    controls_.renderer_frozen ? "FROZEN" : "FREEZE",
-                    rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED",
-                    controls_.holes_shown ? ": SHOWN" : ""),
-        fmt::format("DRAG LOOK   W A S D E C MOVE   {}O OVERLAY   R {}   Q QUIT", stereo_ != nullptr ? "T EYES   " : "",
-                    controls_.recording ? fmt::format("RECORDING {}", clip_->written()) : "RECORD")};
-    std::vector<OverlayPanel> panels;
-    ColourImage text = text_panel(help, options_.size_px.x, scale);
-    const glm::ivec2 bottom_px{0, options_.size_px.y - text.height()};
-    panels.push_back({std::move(text), bottom_px});
-    if (controls_.overlay_shown) {
-        const double period_ms = 1e3 / options_.display_hz;
-        const auto published = static_cast<double>(exchange_->published_count());
-        if (now - rate_counted_at_ > from_seconds(1.0)) {
-            app_hz_ = (published - rate_counted_) / to_seconds(now - rate_counted_at_);
-            rate_counted_ = published;
-            rate_counted_at_ = now;
-        }
-        const std::vector<OverlayBar> bars{{"MOTION TO PHOTON", latest_.motion_to_photon_ms, 40.0, 2.0 * period_ms},
-                                           {"FRAME AGE", latest_.frame_age_ms, 400.0, 0.0},
-                                           {"WARP", latest_.warp_ms, 2.0 * period_ms, period_ms},
-                                           {"CLIENT", app_hz_, 90.0, 0.0, "HZ"},
-                                           {"MISSED OF 1000", latest_.missed_of_1000, 100.0, 10.0, ""}};
-        panels.push_back({bar_panel(bars, options_.size_px.x / 2, scale), {0, 0}});
-    }
-    window_->set_overlay(std::move(panels));
-}
-
-// Server's thread.
-void LiveSession::note_record(const DisplayRecord& record) {
-    const double missed = record.missed() ? 1000.0 : 0.0;
-    latest_.missed_of_1000 = latest_.missed_of_1000 + (missed - latest_.missed_of_1000) / 256.0;
-    if (!record.presented) return;
-    latest_.motion_to_photon_ms = to_ms(record.photon - record.pose_sampled);
-    latest_.frame_age_ms = to_ms(record.photon - record.frame_pose_sampled);
-    latest_.warp_ms = to_ms(record.warp_time());
+    const DemoState state{labels[controls_.method % labels.size()], stereo_ != nullptr, exchange_->published_count(),
+                          clip_->written()};
+    window_->set_overlay(overlay_.panels(now, controls_, state));
 }
 
 bool LiveSession::is_over(TimePoint& end) const {
@@ -549,7 +500,7 @@ void LiveSession::show_until_stopped() {
     settings.photon_codes = has_photon_codes();
     if (window_ != nullptr) {
         settings.on_record = [this](const DisplayRecord& record) {
-            note_record(record);
+            overlay_.note(record);
             if (one_eye_ != nullptr) one_eye_->set_false_colours(controls_.false_colours);
         };
     }

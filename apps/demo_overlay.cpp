@@ -16,7 +16,8 @@ std::vector<std::string> help_lines(const DemoControls& controls, const DemoStat
                         controls.renderer_frozen ? "FROZEN" : "FREEZE",
                         rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED",
                         controls.holes_shown ? ": SHOWN" : ""),
-            fmt::format("DRAG LOOK   W A S D E C MOVE   L LAYERS   {}O OVERLAY   R {}   Q QUIT", state.two_eyes ? "T EYES   " : "",
+            fmt::format("DRAG LOOK   W A S D E C MOVE   L LAYERS   {}O OVERLAY   R {}   Q QUIT",
+                        state.two_eyes ? "T EYES   " : "",
                         controls.recording ? fmt::format("RECORDING {}", state.frames_recorded) : "RECORD")};
 }
 

@@ -117,8 +117,10 @@ WarpCounters LayerComposition::show(WarpMethod& method, std::span<const Layer* c
     method.warp(view, target, into);
     counters = without_empty(method.counters(), view);
     tint(view, into);
+    WarpTarget shown = target;
+    if (method.shows_frames_as_drawn()) shown.camera.world_from_eye = view.camera.world_from_eye;
     for (const Layer* layer : layers.subspan(1)) {
-        if (add(method, *layer, view, target, into)) counters += without_empty(method.counters(), *layer);
+        if (const auto left_out = add(method, *layer, view, shown, into)) counters += *left_out;
     }
     return counters;
 }
@@ -221,26 +223,38 @@ void LayerComposition::stack_beside_view(const Layer& view, std::span<const Laye
     }
 }
 
-bool LayerComposition::add(WarpMethod& method, const Layer& layer, const Layer& view, const WarpTarget& target,
-                           DisplayFrame& into) {
+// Of a frame shown as it was drawn, `target` looks as its view does: what was drawn from elsewhere is turned to that.
+WarpCounters LayerComposition::warp_into_scratch(WarpMethod& method, const Layer& layer, const WarpTarget& target) {
+    if (!method.shows_frames_as_drawn()) {
+        method.warp(layer, target, scratch_);
+        return without_empty(method.counters(), layer);
+    }
+    WarpCounters counters;
+    resample_by_rotation(layer, target.camera, scratch_, counters);
+    return without_empty(counters, layer);
+}
+
+std::optional<WarpCounters> LayerComposition::add(WarpMethod& method, const Layer& layer, const Layer& view,
+                                                  const WarpTarget& target, DisplayFrame& into) {
     PixelRect rect = reach_of(layer, target.camera);
-    if (rect.empty()) return false;
+    if (rect.empty()) return std::nullopt;
     if (is_beside_view(layer, view)) {
         const ViewCover cover = cover_of(view, target.camera);
         // Where the view covers all, only holes count, and no pixel need be asked.
         const MissingPixels missing = missing_in(into, rect, covers_all(cover, target.camera) ? 0.0F : 1.0F, cover);
-        if (static_cast<double>(missing.count) < kWorthATile * pixel_count(target.camera)) return false;
+        if (static_cast<double>(missing.count) < kWorthATile * pixel_count(target.camera)) return std::nullopt;
         rect = missing.rect;
     } else if (layer.content.static_only) {
         const MissingPixels missing = missing_in(into, rect, nearest_target_depth(layer, target.camera));
-        if (missing.count == 0) return false;
+        if (missing.count == 0) return std::nullopt;
         rect = missing.rect;
     }
     const bool all = rect.size_px() == target.camera.size_px;
-    method.warp(layer, all ? target : WarpTarget{part_of(target.camera, rect), target.movers, target.eye}, scratch_);
+    const WarpTarget part{all ? target.camera : part_of(target.camera, rect), target.movers, target.eye};
+    const WarpCounters left_out = warp_into_scratch(method, layer, part);
     if (false_colours_) tint(layer, scratch_);
     merge_nearest(scratch_, rect.first_px, into);
-    return true;
+    return left_out;
 }
 
 void LayerComposition::tint(const Layer& layer, DisplayFrame& frame) const {

@@ -1,6 +1,8 @@
 #pragma once
 /// Second and further layers of a frame, put behind and before what is already shown.
 
+#include <optional>
+
 #include "warp_server/layer_reach.h"
 #include "warp_server/warp_method.h"
 
@@ -34,8 +36,9 @@ public:
     /// One layer more: warps `layer` and shows it in `into` where nothing is shown yet or where it is nearer. Only the
     /// part of the target is warped that the layer can reach and where something is missing.
     /// @param view  the frame's first layer
-    /// @return false when the layer has nothing to show in this frame, and was not warped
-    bool add(WarpMethod& method, const Layer& layer, const Layer& view, const WarpTarget& target, DisplayFrame& into);
+    /// @return what was left out of it; nothing when the layer has nothing to show in this frame, and was not warped
+    std::optional<WarpCounters> add(WarpMethod& method, const Layer& layer, const Layer& view, const WarpTarget& target,
+                                    DisplayFrame& into);
 
     /// Mixes every layer's colours with its shell's from now on.
     void set_false_colours(bool on) { false_colours_ = on; }
@@ -44,6 +47,7 @@ public:
     void tint(const Layer& layer, DisplayFrame& frame) const;
 
 private:
+    WarpCounters warp_into_scratch(WarpMethod& method, const Layer& layer, const WarpTarget& target);
     void show_stack(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
                     DisplayFrame& into, WarpCounters& counters);
     void stack_beside_view(const Layer& view, std::span<const Layer* const> tiles, const WarpTarget& target,

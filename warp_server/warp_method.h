@@ -115,6 +115,9 @@ public:
     /// prepare() runs it itself when the layer was not prepared for it.
     virtual void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) = 0;
 
+    /// Whether it shows frames as they were drawn instead of where things are now.
+    [[nodiscard]] virtual bool shows_frames_as_drawn() const { return false; }
+
     /// Whether it has warp_stack().
     [[nodiscard]] virtual bool can_stack() const { return false; }
 

@@ -106,7 +106,7 @@ TEST(FrameWarper, PixelsThatHoldNothingAreHolesAndNotBad) {
     layer.cpu().depth.at(2, 2) = 7.0F;
     layer.empty_pixels = 4;
     const SharedLayer front = shared(std::move(layer));
-    for (const char* method : {"splat", "surface", "reference"}) {
+    for (const char* method : {"stale", "rotation", "splat", "inverse", "surface", "reference"}) {
         auto warper = FrameWarper::create(method, "none");
         const DisplayFrame& shown = warper->warp(frame_with({front}), {camera, {}});
         EXPECT_NE(shown.coverage.at(5, 1), Coverage::reached) << method;
@@ -120,6 +120,37 @@ TEST(FrameWarper, PixelsThatHoldNothingAreHolesAndNotBad) {
         EXPECT_NEAR(both.depth.at(5, 1), 0.01F, 0.01F * 0.003F) << method;
         EXPECT_NEAR(both.depth.at(4, 1), 0.05F, 1e-6F) << method;
     }
+}
+
+TEST(FrameWarper, StaleTurnsWhatWasDrawnEarlierToTheFramesView) {
+    const Camera camera = street_camera({64, 64});
+    Layer view = indexed_layer(camera, 0.05F);
+    for (float& depth : view.cpu().depth.pixels()) depth = kNoSurfaceDepth;
+    view.empty_pixels = 64 * 64;
+    // A picture of the same place, drawn when the head looked 10 degrees aside: half of it is red.
+    Layer older = indexed_layer(moved(camera, {}, 10.0), 0.01F);
+    older.content.shell = 1;
+    older.content.item = 1;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x)
+            older.cpu().colour.at(x, y) = {static_cast<std::uint8_t>(x < 32 ? 255 : 0), 0, 0, 255};
+    }
+    auto warper = FrameWarper::create("stale", "none");
+    auto turning = FrameWarper::create("rotation", "none");
+    const SharedLayer red_half = shared(std::move(older));
+    const RenderedFrame frame = frame_with({shared(std::move(view)), red_half});
+    const DisplayFrame& shown = warper->warp(frame, {moved(camera, {}, 25.0), {}});
+    const DisplayFrame& expected = turning->warp(frame_with({red_half}), {camera, {}});
+    int differ = 0;
+    for (int y = 0; y < 64; ++y) {
+        for (int x = 0; x < 64; ++x) {
+            if (expected.coverage.at(x, y) != Coverage::reached) continue;
+            differ += shown.colour.at(x, y) == expected.colour.at(x, y) ? 0 : 1;
+        }
+    }
+    EXPECT_EQ(differ, 0) << "of the pixels that the older picture reaches";
+    EXPECT_GT(hole_fraction(expected), 0.0) << "it must not reach all of them, or nothing was turned";
+    EXPECT_LT(hole_fraction(expected), 0.5);
 }
 
 }  // namespace

@@ -25,6 +25,11 @@ SourceFromTarget source_from_target(const Camera& source, const Camera& target) 
     return {glm::mat3{glm::inverse(target_from_source)}, static_cast<float>(m[3].z)};
 }
 
+bool meets_nothing(const DepthImage& depth, const BilinearTap& tap) {
+    return depth.at(tap.x0, tap.y0) == kNoSurfaceDepth || depth.at(tap.x1, tap.y0) == kNoSurfaceDepth ||
+           depth.at(tap.x0, tap.y1) == kNoSurfaceDepth || depth.at(tap.x1, tap.y1) == kNoSurfaceDepth;
+}
+
 }  // namespace
 
 glm::mat3 background_source_from_target(const Camera& source, const Camera& target) {
@@ -52,12 +57,21 @@ void resample_by_rotation(const Layer& layer, const Camera& target, DisplayFrame
                 out.coverage.at(x, y) = Coverage::hole;
                 continue;
             }
-            float depth = pixels.depth.at(static_cast<int>(x_px), static_cast<int>(y_px));
+            const glm::ivec2 nearest{static_cast<int>(x_px), static_cast<int>(y_px)};
+            float depth = pixels.depth.at(nearest.x, nearest.y);
+            if (depth == kNoSurfaceDepth) {
+                ++counters.bad_depth;
+                out.coverage.at(x, y) = Coverage::hole;
+                continue;
+            }
             if (!is_usable_depth(depth)) {
                 ++counters.bad_depth;
                 depth = 0.0F;
             }
-            out.colour.at(x, y) = sample_bilinear(pixels.colour, bilinear_tap(x_px, y_px, source_size_px));
+            const BilinearTap tap = bilinear_tap(x_px, y_px, source_size_px);
+            const bool beside_nothing = layer.empty_pixels > 0 && meets_nothing(pixels.depth, tap);
+            out.colour.at(x, y) =
+                beside_nothing ? pixels.colour.at(nearest.x, nearest.y) : sample_bilinear(pixels.colour, tap);
             out.depth.at(x, y) = std::min(depth * transform.depth_scale * place.z, 1.0F);
             out.coverage.at(x, y) = Coverage::reached;
         }

@@ -1,5 +1,6 @@
 /// The newest frame unwarped: what a user sees without a warp server. Only a difference of field of view or size is
-/// undone, so that a guard band does not shrink the picture.
+/// undone, so that a guard band does not shrink the picture. What a frame keeps of older pictures is turned to its
+/// view.
 
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
@@ -12,6 +13,8 @@ public:
     explicit StaleMethod(std::string label) : label_{std::move(label)} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
+
+    [[nodiscard]] bool shows_frames_as_drawn() const override { return true; }
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         counters_ = {};

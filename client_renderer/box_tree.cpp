@@ -72,14 +72,20 @@ HWY_INLINE InFrustum against(const BoxVector& boxes, const FloatFrustum& frustum
 
 class Walk {
 public:
-    Walk(const BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters)
-        : order_{tree.bvh().order()}, wide_{tree.wide()}, query_{query}, seen_{seen}, counters_{counters} {}
+    Walk(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters)
+        : order_{tree.bvh().order()},
+          wide_{tree.wide()},
+          query_{query},
+          seen_{seen},
+          counters_{counters},
+          open_{tree.open()} {}
 
     void run() {
-        stack_[depth_++] = {wide_.root(), FloatFrustum::kAllPlanes};
+        open_.assign(1, {wide_.root(), FloatFrustum::kAllPlanes});
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
-        while (depth_ > 0) {
-            const Entry entry = stack_[--depth_];
+        while (!open_.empty()) {
+            const OpenNode entry = open_.back();
+            open_.pop_back();
             ++counters_.nodes;
             for (std::uint32_t i = 0; i < entry.node.slot_count; i += lanes) {
                 visit(entry.node.first + i, lowest_bits(std::min(lanes, entry.node.slot_count - i)), entry.planes);
@@ -88,11 +94,6 @@ public:
     }
 
 private:
-    struct Entry {
-        WideBvh::Child node;
-        unsigned planes;
-    };
-
     /// A vector of slots.
     /// @param all  bits of those that there are
     void visit(std::uint32_t first, std::uint32_t all, unsigned planes) {
@@ -125,11 +126,10 @@ private:
         }
     }
 
-    void push(const Entry& entry) {
+    void push(const OpenNode& entry) {
         for (int row = 0; row < 6; ++row) fetch_lines(wide_.boxes().row(row) + entry.node.first);
         fetch_lines(wide_.children() + entry.node.first);
-        LW_CHECK(depth_ < stack_.size(), "the hierarchy is deeper than any of its size");
-        stack_[depth_++] = entry;
+        open_.push_back(entry);
     }
 
     void take(std::uint32_t slot) {
@@ -169,8 +169,7 @@ private:
     const WalkQuery& query_;
     std::vector<std::uint32_t>& seen_;
     WalkCounters& counters_;
-    std::array<Entry, WideBvh::kMostChildren * kMostDepth> stack_;
-    std::size_t depth_ = 0;
+    std::vector<OpenNode>& open_;
 };
 
 void walk_here(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters) {

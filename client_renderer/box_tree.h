@@ -39,6 +39,12 @@ struct WalkQuery {
     float least_size_per_distance = 0.0F;
 };
 
+/// A node that a walk still has to look into, and the planes it is not inside of.
+struct OpenNode {
+    WideBvh::Child node;
+    unsigned planes = 0;
+};
+
 /// Boxes in a hierarchy whose nodes have up to sixteen children, tested together on a wide vector. Plane masking: a
 /// plane that a node lies inside is not tested again below it; what lies inside all of them is taken without tests
 /// (seed 002, section 19.4). One thread at a time.
@@ -63,10 +69,13 @@ public:
     /// In the order of the hierarchy.
     [[nodiscard]] const BoxList& boxes() const { return boxes_; }
     [[nodiscard]] const WideBvh& wide() const { return wide_; }
+    /// A walk's own; keeps its memory.
+    [[nodiscard]] std::vector<OpenNode>& open() { return open_; }
 
 private:
     scene::Bvh bvh_;
-    WideBvh wide_;   ///< for one view
+    WideBvh wide_;  ///< for one view
+    std::vector<OpenNode> open_;
     BoxList boxes_;  ///< for several
     WalkCounters counters_;
 };

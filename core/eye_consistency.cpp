@@ -137,6 +137,12 @@ struct Displacement {
         products += slope * (first - second);
         differences += (first - second) * (first - second);
     }
+    Displacement& operator+=(const Displacement& other) {
+        slopes += other.slopes;
+        products += other.products;
+        differences += other.differences;
+        return *this;
+    }
     [[nodiscard]] double px() const { return products / slopes; }
     // Variance of px() over `count` pairs, from what the displacement does not explain of the differences.
     [[nodiscard]] double variance_px2(double count) const {
@@ -151,10 +157,21 @@ struct Tile {
     Displacement shown;
     Displacement truth;
 
-    [[nodiscard]] bool tells() const {
+    [[nodiscard]] bool has_texture() const {
         const double least = count * kFaintestSlope * kFaintestSlope;
-        if (count < kFewestPairs || shown.slopes <= least || truth.slopes <= least) return false;
+        return count >= kFewestPairs && shown.slopes > least && truth.slopes > least;
+    }
+    [[nodiscard]] bool tells() const {
+        if (!has_texture()) return false;
         return shown.variance_px2(count) + truth.variance_px2(count) <= kMostUncertain_px * kMostUncertain_px;
+    }
+    [[nodiscard]] double apart_px() const { return std::abs(shown.px() - truth.px()); }
+
+    Tile& operator+=(const Tile& other) {
+        count += other.count;
+        shown += other.shown;
+        truth += other.truth;
+        return *this;
     }
 };
 
@@ -198,13 +215,16 @@ std::optional<double> vertical_disparity_px(const ShownEye& left, const ShownEye
     }
     double sum_px = 0.0;
     double count = 0.0;
+    Tile whole;
     for (const Tile& tile : sums.pixels()) {
+        whole += tile;
         if (!tile.tells()) continue;
-        sum_px += std::abs(tile.shown.px() - tile.truth.px());
+        sum_px += tile.apart_px();
         count += 1.0;
     }
-    if (count == 0.0) return std::nullopt;
-    return sum_px / count;
+    if (count > 0.0) return sum_px / count;
+    if (whole.has_texture()) return whole.apart_px();
+    return std::nullopt;
 }
 
 }  // namespace

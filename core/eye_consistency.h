@@ -26,8 +26,8 @@ struct EyeConsistency {
     /// Share of the pairs of which one pixel was made up and the other seen: the eyes compete.
     double rivalry_fraction = 0.0;
     /// Mean over the parts of the picture of how far the pair is apart vertically beyond the truth's pair, pixels; over
-    /// the insides of surfaces in those parts whose texture tells it with a standard error of 0.02 px. Nothing where no
-    /// part does.
+    /// the insides of surfaces in those parts whose texture tells it with a standard error of 0.02 px. Where no part
+    /// does, as in small pictures, of the whole picture at once; nothing where that has no texture either.
     std::optional<double> vertical_disparity_px;
 };
 

@@ -32,7 +32,7 @@ struct CullingCounters {
 class Culling {
 public:
     /// Scenes of more objects are tested by the hierarchy. Below it the plain list is as fast.
-    static constexpr std::size_t kListUpTo = 1024;
+    static constexpr std::size_t kListUpTo = 256;
 
     /// `placed` outlives this.
     Culling(const PlacedInstances& placed, const CullingSettings& settings);

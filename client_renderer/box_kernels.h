@@ -40,6 +40,9 @@ inline constexpr float kFrustumRounding = 2e-6F;
 inline constexpr float kSnapPx = 0.02F;
 /// Distances compare with this relative margin: single precision here and in the picture's depth.
 inline constexpr float kDepthRounding = 1e-5F;
+/// Boxes at least so many times as far away as they are deep are projected around their centre: nearer ones would get
+/// rectangles much larger than they look.
+inline constexpr float kFar = 4.0F;
 
 /// One bit per lane, the first lane lowest.
 HWY_INLINE std::uint32_t bits_of(MF mask) {
@@ -162,7 +165,6 @@ HWY_INLINE VF dot(const float* row, const Vector3& v) {
 HWY_INLINE MF project_from_afar(const Vector3& centre, const Vector3& half, const ProjectingRows& rows, float near_m,
                                 Projected& projected) {
     const DF d;
-    constexpr float kFar = 4.0F;
     const VF one = hn::Set(d, 1.0F);
     const VF z = hn::Add(dot(rows.distance.data(), centre), hn::Set(d, rows.distance[3]));
     VF depth = hn::Set(d, rows.rounding[2]);
@@ -281,7 +283,6 @@ HWY_INLINE ProjectedBox lane(const StoredBoxes& boxes, std::size_t i) {
 /// @return  whether it is so far
 HWY_INLINE bool project_one_from_afar(const glm::vec3& centre, const glm::vec3& half, const OcclusionBuffer::View& view,
                                       ProjectedBox& box) {
-    constexpr float kFar = 4.0F;
     const auto row = [](const std::array<float, 3>& values) { return glm::vec3{values[0], values[1], values[2]}; };
     const glm::vec3 z_row = row(view.distance);
     const float z = glm::dot(z_row, centre);

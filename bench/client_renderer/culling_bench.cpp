@@ -25,7 +25,7 @@ namespace lw::bench {
 namespace {
 
 constexpr int kFrames = 201;
-// As for a head that walks, and a frame that is shown for a tenth of a second.
+// None, as where `latewarp bench --suite skip` times frames.
 constexpr double kRevealMargin_m = 0.0;
 
 double thread_ms() {

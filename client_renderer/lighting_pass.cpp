@@ -14,20 +14,19 @@ void bind_texture(int unit, const gl::Texture& texture) {
 }  // namespace
 
 Result<LightingPass> LightingPass::create(bool point_lights) {
-    LightingPass pass;
+    auto sky = SkyPass::create();
+    if (!sky.ok()) return sky.error();
+    LightingPass pass{std::move(*sky)};
     pass.point_lights_ = point_lights;
     auto surfaces = gl::Program::create({"client/fullscreen.vert", "client/lighting.frag"},
                                         point_lights ? "#define POINT_LIGHTS\n" : "");
     if (!surfaces.ok()) return surfaces.error();
-    auto sky = gl::Program::create({"client/fullscreen.vert", "client/sky.frag"});
-    if (!sky.ok()) return sky.error();
     if (point_lights) {
         auto cull_lights = gl::Program::create({"client/light_tiles.comp"});
         if (!cull_lights.ok()) return cull_lights.error();
         pass.cull_lights_ = std::move(*cull_lights);
     }
     pass.surfaces_ = std::move(*surfaces);
-    pass.sky_ = std::move(*sky);
     pass.light_block_ = gl::make_stream_buffer();
     pass.tile_masks_ = gl::make_stream_buffer();
     pass.no_attributes_ = gl::make_vertex_array();
@@ -46,7 +45,7 @@ void LightingPass::cull_lights(const RenderTargets& targets, const LightTiles& l
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights, bool sky) {
+void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights, std::span<const SkyRect> sky) {
     bind_texture(shader::kUnitGAlbedo, targets.albedo_roughness);
     bind_texture(shader::kUnitGNormal, targets.normal);
     bind_texture(shader::kUnitGEmissive, targets.emissive_metallic);
@@ -60,11 +59,8 @@ void LightingPass::draw(const RenderTargets& targets, const LightTiles& lights, 
     glDepthFunc(GL_LESS);
     surfaces_.use();
     glDrawArrays(GL_TRIANGLES, 0, 3);
-    if (sky) {
-        glDepthFunc(GL_EQUAL);
-        sky_.use();
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-    }
+    glDepthFunc(GL_EQUAL);
+    sky_.draw(sky, targets.colour.size_px());
 
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_TRUE);

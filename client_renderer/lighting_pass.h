@@ -1,8 +1,11 @@
 #pragma once
 /// Turns a G-buffer into a picture: surfaces and sky.
 
+#include <span>
+
 #include "client_renderer/light_tiles.h"
 #include "client_renderer/render_targets.h"
+#include "client_renderer/sky_pass.h"
 #include "core/result.h"
 #include "gl/program.h"
 
@@ -15,18 +18,18 @@ public:
     [[nodiscard]] static Result<LightingPass> create(bool point_lights);
 
     /// Lights `targets` into its colour. The frame block is bound; `lights` was built for the same camera.
-    /// Without `sky` pixels that show no surface keep what they hold.
-    void draw(const RenderTargets& targets, const LightTiles& lights, bool sky = true);
+    /// Pixels that show no surface get the sky where `sky` covers them (SkyParts), elsewhere they keep what they hold.
+    void draw(const RenderTargets& targets, const LightTiles& lights, std::span<const SkyRect> sky);
 
 private:
-    LightingPass() = default;
+    explicit LightingPass(SkyPass sky) : sky_{std::move(sky)} {}
 
     void cull_lights(const RenderTargets& targets, const LightTiles& lights);
 
     bool point_lights_ = false;
     gl::Program cull_lights_;  ///< empty without point lights
     gl::Program surfaces_;
-    gl::Program sky_;
+    SkyPass sky_;
     gl::Buffer light_block_;
     gl::Buffer tile_masks_;
     gl::VertexArray no_attributes_;

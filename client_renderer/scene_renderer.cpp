@@ -35,6 +35,15 @@ Camera cropped(const Camera& camera, glm::ivec2 first_px, glm::ivec2 size_px) {
     return part;
 }
 
+/// For programs to be compiled: every part of the sky somewhere.
+std::array<SkyRect, kSkyPartCount> one_of_each_part(glm::ivec2 size_px) {
+    std::array<SkyRect, kSkyPartCount> rects;
+    for (std::size_t part = 0; part < rects.size(); ++part) {
+        rects[part] = {{0, 0}, size_px, static_cast<SkyPart>(part)};
+    }
+    return rects;
+}
+
 void check_samples(int samples_per_axis) {
     LW_CHECK(samples_per_axis == 1 || samples_per_axis == 2 || samples_per_axis == 4,
              fmt::format("{} samples per axis", samples_per_axis));
@@ -119,7 +128,8 @@ public:
         bind_frame(camera);
         gbuffer_.warm_up(**targets);
         lights_.build(scene_.point_lights, camera);
-        lighting_.draw(**targets, lights_);
+        const std::array<SkyRect, kSkyPartCount> sky = one_of_each_part(camera.size_px);
+        lighting_.draw(**targets, lights_, sky);
         images_.average((*targets)->colour, 2, gl::Texture{camera.size_px / 2, GL_SRGB8_ALPHA8});
         images_.copy_depth((*targets)->depth, gl::Texture{camera.size_px, GL_R32F});
         glFinish();
@@ -318,7 +328,8 @@ private:
         }
         timed(counters_.light_ms, [&] {
             lights_.build(scene_.point_lights, camera);
-            lighting_.draw(targets, lights_, part_.sky);
+            if (part_.sky) sky_.build(camera, scene_.sun);
+            lighting_.draw(targets, lights_, part_.sky ? sky_.rects() : std::span<const SkyRect>{});
         });
         return targets;
     }
@@ -412,6 +423,7 @@ private:
     SurfaceResolve resolve_;
     std::optional<LayerTextures> resolved_;  ///< of the last size drawn with several samples
     LightTiles lights_;
+    SkyParts sky_;
     gl::Buffer frame_block_;
     std::optional<BillboardPainter> painter_;
     std::unique_ptr<BillboardField> field_;

@@ -48,6 +48,7 @@ const int kUnitSource = 0;        // of a copy or an average
 const int kUnitSampleColour = 0;  // of the resolve per surface
 const int kUnitSampleDepth = 1;
 const int kUnitSampleId = 2;
+const int kAttributeSkyCorner = 0;
 
 const int kBindingFrame = 0;
 const int kBindingMaterial = 1;
@@ -56,6 +57,11 @@ const int kBindingTiles = 0;  // storage buffer
 
 const int kMaxLights = 64;  // one bit each in a tile's mask
 const int kLightTilePx = 32;
+
+// The sky. Its parts are told apart where they are drawn and before.
+const float kHorizonBlend = 0.06f;  // sine of the depression at which the ground is all there is
+const float kSunGlow = 0.04f;       // of the sun's irradiance, by the eighth power of the cosine of the angle to it
+const float kSunHalo = 0.12f;       // by the 96th
 
 LW_BLOCK(FrameBlock, kBindingFrame) {
     vec4 clip_x;  // clip.x = dot(clip_x.xyz, position_relative), and so on; clip.z is near_m

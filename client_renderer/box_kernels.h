@@ -40,6 +40,8 @@ inline constexpr float kFrustumRounding = 2e-6F;
 inline constexpr float kSnapPx = 0.02F;
 /// Distances compare with this relative margin: single precision here and in the picture's depth.
 inline constexpr float kDepthRounding = 1e-5F;
+/// The reverse distance of what reaches before the near plane.
+inline constexpr float kBeforeNear = 1e30F;
 /// Boxes at least so many times as far away as they are deep are projected around their centre: nearer ones would get
 /// rectangles much larger than they look.
 inline constexpr float kFar = 4.0F;
@@ -131,8 +133,8 @@ HWY_INLINE MF large_enough(const BoxVector& boxes, const std::array<float, 3>& e
     return hn::Ge(hn::Mul(hn::Set(d, 4.0F), radius_2), hn::Mul(hn::Set(d, least * least), distance_2));
 }
 
-/// Where a vector of boxes lies in the buffer, in its pixels, and the reverse distance of their nearest points; 1e30
-/// where a box reaches before the near plane.
+/// Where a vector of boxes lies in the buffer, in its pixels, and the reverse distance of their nearest points;
+/// kBeforeNear where a box reaches before the near plane.
 struct Projected {
     VF x0;
     VF x1;
@@ -148,6 +150,14 @@ struct ProjectingRows {
     std::array<float, 4> distance{};
     std::array<float, 3> rounding{};  ///< what these three sums are off by at most
 };
+
+/// For places relative to the eye.
+HWY_INLINE ProjectingRows projecting_rows(const OcclusionBuffer::View& view) {
+    return {{view.x_px[0], view.x_px[1], view.x_px[2], 0.0F},
+            {view.y_px[0], view.y_px[1], view.y_px[2], 0.0F},
+            {view.distance[0], view.distance[1], view.distance[2], 0.0F},
+            {}};
+}
 
 using Vector3 = std::array<VF, 3>;
 
@@ -217,7 +227,7 @@ HWY_INLINE Projected project_corners(const Vector3& centre, const Vector3& half,
     }
     const MF behind = hn::Le(nearest, hn::Set(d, view.near_m));
     const VF reverse = hn::Div(hn::Set(d, 1.0F + kDepthRounding), nearest);
-    return {x0, x1, y0, y1, hn::IfThenElse(behind, hn::Set(d, 1e30F), reverse)};
+    return {x0, x1, y0, y1, hn::IfThenElse(behind, hn::Set(d, kBeforeNear), reverse)};
 }
 
 /// Lanes of `yes` where the mask is set, else of `no`: a box's rectangle does not depend on its neighbours.
@@ -239,84 +249,30 @@ HWY_INLINE Projected project(const BoxVector& boxes, const OcclusionBuffer::View
         const VF size = hn::Add(hn::Abs(centre[axis]), hn::Set(d, std::abs(view.eye_world[axis])));
         half[axis] = hn::MulAdd(size, hn::Set(d, 3e-7F), half[axis]);
     }
-    const ProjectingRows rows{{view.x_px[0], view.x_px[1], view.x_px[2], 0.0F},
-                              {view.y_px[0], view.y_px[1], view.y_px[2], 0.0F},
-                              {view.distance[0], view.distance[1], view.distance[2], 0.0F},
-                              {}};
     Projected projected;
-    const MF far = project_from_afar(centre, half, rows, view.near_m, projected);
+    const MF far = project_from_afar(centre, half, projecting_rows(view), view.near_m, projected);
     if ((lanes & ~bits_of(far)) == 0) return projected;
     return chosen(far, projected, project_corners(centre, half, view));
 }
 
-/// As arrays, to take boxes out of one by one.
-struct StoredBoxes {
-    explicit StoredBoxes(const Projected& projected) {
-        const DF d;
-        hn::Store(projected.x0, d, x0.data());
-        hn::Store(projected.x1, d, x1.data());
-        hn::Store(projected.y0, d, y0.data());
-        hn::Store(projected.y1, d, y1.data());
-        hn::Store(projected.reverse, d, reverse.data());
-    }
-    HWY_ALIGN std::array<float, kMaxLanes> x0;
-    HWY_ALIGN std::array<float, kMaxLanes> x1;
-    HWY_ALIGN std::array<float, kMaxLanes> y0;
-    HWY_ALIGN std::array<float, kMaxLanes> y1;
-    HWY_ALIGN std::array<float, kMaxLanes> reverse;
-};
-
-/// One of them.
-struct ProjectedBox {
-    float x0;
-    float x1;
-    float y0;
-    float y1;
-    float reverse;
-};
-
-HWY_INLINE ProjectedBox lane(const StoredBoxes& boxes, std::size_t i) {
-    return {boxes.x0[i], boxes.x1[i], boxes.y0[i], boxes.y1[i], boxes.reverse[i]};
-}
-
-/// Of one box far away, as project_from_afar().
-/// @return  whether it is so far
-HWY_INLINE bool project_one_from_afar(const glm::vec3& centre, const glm::vec3& half, const OcclusionBuffer::View& view,
-                                      ProjectedBox& box) {
-    const auto row = [](const std::array<float, 3>& values) { return glm::vec3{values[0], values[1], values[2]}; };
-    const glm::vec3 z_row = row(view.distance);
-    const float z = glm::dot(z_row, centre);
-    const float depth = glm::dot(glm::abs(z_row), half);
-    const float nearest = z - depth;
-    if (!(nearest > view.near_m && z >= kFar * depth)) return false;
-    const float per_both = 1.0F / (z * nearest);
-    const float per_z = per_both * nearest;
-    const float per_nearest = per_both * z;
-    const auto place = [&](const glm::vec3& across_row, float& low, float& high) {
-        const float u = glm::dot(across_row, centre) * per_z;
-        const float reach = glm::dot(glm::abs(across_row - u * z_row), half) * per_nearest;
-        low = u - reach;
-        high = u + reach;
-    };
-    place(row(view.x_px), box.x0, box.x1);
-    place(row(view.y_px), box.y0, box.y1);
-    box.reverse = (1.0F + kDepthRounding) * per_nearest;
-    return true;
-}
-
-/// Of one box, its corners side by side in a vector.
-HWY_INLINE ProjectedBox project_one(const glm::vec3& box_min, const glm::vec3& box_max,
-                                    const OcclusionBuffer::View& view) {
-    const hn::CappedTag<float, 8> d;
-    using V = hn::Vec<decltype(d)>;
-    HWY_ALIGN static constexpr std::array<std::array<float, 8>, 3> kSigns{
-        {{1, -1, 1, -1, 1, -1, 1, -1}, {1, 1, -1, -1, 1, 1, -1, -1}, {1, 1, 1, 1, -1, -1, -1, -1}}};
+/// Of one box, in every lane. Its corners stand side by side in a vector where it is near.
+HWY_INLINE Projected project_one(const glm::vec3& box_min, const glm::vec3& box_max,
+                                 const OcclusionBuffer::View& view) {
+    const DF all;
     const glm::vec3 eye_world{view.eye_world[0], view.eye_world[1], view.eye_world[2]};
     const glm::vec3 centre = 0.5F * (box_min + box_max) - eye_world;
     // The box and the eye were rounded to single precision, and so are these.
     const glm::vec3 half = 0.5F * (box_max - box_min) + 3e-7F * (glm::abs(centre) + glm::abs(eye_world));
-    ProjectedBox from_afar{};
-    if (project_one_from_afar(centre, half, view, from_afar)) return from_afar;
+    Projected projected;
+    const MF far = project_from_afar({hn::Set(all, centre.x), hn::Set(all, centre.y), hn::Set(all, centre.z)},
+                                     {hn::Set(all, half.x), hn::Set(all, half.y), hn::Set(all, half.z)},
+                                     projecting_rows(view), view.near_m, projected);
+    if (bits_of(far) != 0) return projected;
+
+    const hn::CappedTag<float, 8> d;
+    using V = hn::Vec<decltype(d)>;
+    HWY_ALIGN static constexpr std::array<std::array<float, 8>, 3> kSigns{
+        {{1, -1, 1, -1, 1, -1, 1, -1}, {1, 1, -1, -1, 1, 1, -1, -1}, {1, 1, 1, 1, -1, -1, -1, -1}}};
     const auto at_centre = [&](const std::array<float, 3>& row) {
         return row[0] * centre[0] + row[1] * centre[1] + row[2] * centre[2];
     };
@@ -345,8 +301,10 @@ HWY_INLINE ProjectedBox project_one(const glm::vec3& box_min, const glm::vec3& b
         y1 = hn::Max(y1, y);
     }
     const float nearest_m = hn::GetLane(hn::MinOfLanes(d, nearest));
-    return {hn::GetLane(hn::MinOfLanes(d, x0)), hn::GetLane(hn::MaxOfLanes(d, x1)), hn::GetLane(hn::MinOfLanes(d, y0)),
-            hn::GetLane(hn::MaxOfLanes(d, y1)), nearest_m > view.near_m ? (1.0F + kDepthRounding) / nearest_m : 1e30F};
+    const float reverse = nearest_m > view.near_m ? (1.0F + kDepthRounding) / nearest_m : kBeforeNear;
+    return {hn::Set(all, hn::GetLane(hn::MinOfLanes(d, x0))), hn::Set(all, hn::GetLane(hn::MaxOfLanes(d, x1))),
+            hn::Set(all, hn::GetLane(hn::MinOfLanes(d, y0))), hn::Set(all, hn::GetLane(hn::MaxOfLanes(d, y1))),
+            hn::Set(all, reverse)};
 }
 
 /// Lanes whose boxes reach into the picture, or before the near plane.
@@ -356,7 +314,7 @@ HWY_INLINE MF in_picture(const Projected& projected, const OcclusionBuffer::View
     const auto inside = [&](VF low, VF high, float size) HWY_ATTR {
         return hn::And(hn::Ge(hn::Add(high, snap), hn::Zero(d)), hn::Le(hn::Sub(low, snap), hn::Set(d, size)));
     };
-    const MF before_near = hn::Ge(projected.reverse, hn::Set(d, 1e29F));
+    const MF before_near = hn::Ge(projected.reverse, hn::Set(d, kBeforeNear));
     return hn::Or(before_near, hn::And(inside(projected.x0, projected.x1, view.size_px[0]),
                                        inside(projected.y0, projected.y1, view.size_px[1])));
 }
@@ -373,7 +331,7 @@ HWY_INLINE MF meets_sample(const Projected& projected, const OcclusionBuffer::Vi
         const VF last = hn::Floor(hn::Sub(hn::Mul(hn::Add(high, snap), scale), half));
         return hn::Le(first, last);
     };
-    const MF before_near = hn::Ge(projected.reverse, hn::Set(d, 1e29F));
+    const MF before_near = hn::Ge(projected.reverse, hn::Set(d, kBeforeNear));
     return hn::Or(before_near, hn::And(meets(projected.x0, projected.x1, view.samples_per_px[0]),
                                        meets(projected.y0, projected.y1, view.samples_per_px[1])));
 }
@@ -415,44 +373,70 @@ HWY_INLINE bool tile_hides(const OcclusionBuffer& buffer, glm::ivec2 tile_px, gl
     return true;
 }
 
-/// True when every pixel of the buffer that the box may touch hides what is at its nearest point and beyond, and when
-/// it lies beside the picture: the test of the field of view is coarser than this rectangle.
-HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const ProjectedBox& box) {
-    if (!(box.reverse < 1e29F)) return false;
-    const bool beside = box.x1 + kSnapPx < 0.0F || box.y1 + kSnapPx < 0.0F ||
-                        box.x0 - kSnapPx > static_cast<float>(buffer.size_px().x) ||
-                        box.y0 - kSnapPx > static_cast<float>(buffer.size_px().y);
-    if (beside) return true;
-    // Most of what is seen is seen in the middle.
-    const auto middle = [](float low, float high, int size) {
-        return static_cast<int>(std::clamp(0.5F * (low + high), 0.0F, static_cast<float>(size - 1)));
-    };
-    const std::ptrdiff_t at =
-        middle(box.y0, box.y1, buffer.size_px().y) * buffer.stride() + middle(box.x0, box.x1, buffer.size_px().x);
-    const bool part_hides = buffer.masks()[at] != 0 && buffer.parts()[at] > box.reverse;
-    if (buffer.pixels()[at] <= box.reverse && !part_hides) return false;
-    // In parts of pixels.
+/// Rectangles of boxes in the buffer, to take them out of one by one.
+struct StoredRects {
+    StoredRects(const Projected& boxes, const OcclusionBuffer& buffer) {
+        const DF d;
+        const DI di;
+        const VF snap = hn::Set(d, kSnapPx);
+        const VF parts = hn::Set(d, static_cast<float>(OcclusionBuffer::kParts));
+        const auto store = [&](VF place, int last, std::array<std::int32_t, kMaxLanes>& to) HWY_ATTR {
+            const VF inside = hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(last)));
+            hn::Store(hn::ConvertTo(di, inside), di, to.data());
+        };
+        const int last_x = OcclusionBuffer::kParts * buffer.size_px().x - 1;
+        const int last_y = OcclusionBuffer::kParts * buffer.size_px().y - 1;
+        store(hn::Mul(parts, hn::Sub(boxes.x0, snap)), last_x, x0);
+        store(hn::Mul(parts, hn::Sub(boxes.y0, snap)), last_y, y0);
+        store(hn::Mul(parts, hn::Add(boxes.x1, snap)), last_x, x1);
+        store(hn::Mul(parts, hn::Add(boxes.y1, snap)), last_y, y1);
+        hn::Store(boxes.reverse, d, reverse.data());
+    }
+    // In parts of pixels, the last included.
+    HWY_ALIGN std::array<std::int32_t, kMaxLanes> x0;
+    HWY_ALIGN std::array<std::int32_t, kMaxLanes> y0;
+    HWY_ALIGN std::array<std::int32_t, kMaxLanes> x1;
+    HWY_ALIGN std::array<std::int32_t, kMaxLanes> y1;
+    HWY_ALIGN std::array<float, kMaxLanes> reverse;
+};
+
+/// Whether every pixel of the buffer that a box may touch hides what is at its nearest point and beyond.
+HWY_INLINE bool is_hidden(const OcclusionBuffer& buffer, const StoredRects& rects, std::size_t box) {
     constexpr int kParts = OcclusionBuffer::kParts;
-    const auto part_of = [](float px, int last) {
-        return static_cast<int>(std::clamp(kParts * px, 0.0F, static_cast<float>(last)));
-    };
-    const int last_x = kParts * buffer.size_px().x - 1;
-    const int last_y = kParts * buffer.size_px().y - 1;
-    const int x0 = part_of(box.x0 - kSnapPx, last_x);
-    const int x1 = part_of(box.x1 + kSnapPx, last_x);
-    const int y0 = part_of(box.y0 - kSnapPx, last_y);
-    const int y1 = part_of(box.y1 + kSnapPx, last_y);
+    const glm::ivec4 rect{rects.x0[box], rects.y0[box], rects.x1[box], rects.y1[box]};
+    const float reverse = rects.reverse[box];
+    // Most of what is seen is seen in the middle.
+    const std::ptrdiff_t at = static_cast<std::ptrdiff_t>((rect.y + rect.w) / (2 * kParts)) * buffer.stride() +
+                              (rect.x + rect.z) / (2 * kParts);
+    const bool part_hides = buffer.masks()[at] != 0 && buffer.parts()[at] > reverse;
+    if (buffer.pixels()[at] <= reverse && !part_hides) return false;
     constexpr int kTileX = OcclusionBuffer::kTileX;
     constexpr int kTileY = OcclusionBuffer::kTileY;
-    for (int ty = y0 / kParts / kTileY; ty <= y1 / kParts / kTileY; ++ty) {
-        for (int tx = x0 / kParts / kTileX; tx <= x1 / kParts / kTileX; ++tx) {
+    for (int ty = rect.y / kParts / kTileY; ty <= rect.w / kParts / kTileY; ++ty) {
+        for (int tx = rect.x / kParts / kTileX; tx <= rect.z / kParts / kTileX; ++tx) {
             const OcclusionBuffer::Tile& tile = buffer.tiles()[ty * buffer.tile_stride() + tx];
-            if (tile.farthest > box.reverse) continue;
-            if (tile.nearest <= box.reverse) return false;
-            if (!tile_hides(buffer, {tx * kTileX, ty * kTileY}, {x0, y0, x1, y1}, box.reverse)) return false;
+            if (tile.farthest > reverse) continue;
+            if (tile.nearest <= reverse) return false;
+            if (!tile_hides(buffer, {tx * kTileX, ty * kTileY}, rect, reverse)) return false;
         }
     }
     return true;
+}
+
+/// Of the boxes whose bits are set, the bits of those that are hidden or lie beside the picture: the test of the field
+/// of view is coarser than their rectangles.
+HWY_INLINE std::uint32_t hidden_of(const OcclusionBuffer& buffer, const Projected& boxes, std::uint32_t bits) {
+    const DF d;
+    bits &= bits_of(hn::Lt(boxes.reverse, hn::Set(d, kBeforeNear)));
+    std::uint32_t hidden = bits & ~bits_of(in_picture(boxes, buffer.view()));
+    std::uint32_t rest = bits & ~hidden;
+    if (rest == 0) return hidden;
+    const StoredRects rects{boxes, buffer};
+    for (; rest != 0; rest &= rest - 1) {
+        const auto box = static_cast<std::size_t>(__builtin_ctz(rest));
+        if (is_hidden(buffer, rects, box)) hidden |= 1U << box;
+    }
+    return hidden;
 }
 
 }  // namespace lw::HWY_NAMESPACE

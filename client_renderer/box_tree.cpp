@@ -81,11 +81,11 @@ public:
           open_{tree.open()} {}
 
     void run() {
+        // First come, first served: what is asked for when a node is found has come when its turn comes.
         open_.assign(1, {wide_.root(), FloatFrustum::kAllPlanes});
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
-        while (!open_.empty()) {
-            const OpenNode entry = open_.back();
-            open_.pop_back();
+        for (std::size_t next = 0; next < open_.size(); ++next) {
+            const OpenNode entry = open_[next];
             ++counters_.nodes;
             for (std::uint32_t i = 0; i < entry.node.slot_count; i += lanes) {
                 visit(entry.node.first + i, lowest_bits(std::min(lanes, entry.node.slot_count - i)), entry.planes);
@@ -127,8 +127,11 @@ private:
     }
 
     void push(const OpenNode& entry) {
-        for (int row = 0; row < 6; ++row) fetch_lines(wide_.boxes().row(row) + entry.node.first);
-        fetch_lines(wide_.children() + entry.node.first);
+        const std::uint32_t first = entry.node.first;
+        const std::uint32_t count = entry.node.slot_count;
+        for (int row = 0; row < 6; ++row) fetch_run(wide_.boxes().row(row) + first, count);
+        fetch_run(wide_.children() + first, count);
+        fetch_run(wide_.item_counts() + first, count);
         open_.push_back(entry);
     }
 
@@ -153,15 +156,9 @@ private:
         const std::uint32_t sampled = bits & bits_of(meets_sample(projected, buffer.view()));
         counters_.items_between_samples += items_of(first, bits & ~sampled);
         if (sampled == 0) return 0;
-        const StoredBoxes stored{projected};
-        std::uint32_t seen = 0;
-        for (std::uint32_t rest = sampled; rest != 0; rest &= rest - 1) {
-            if (!is_hidden(buffer, lane(stored, static_cast<std::size_t>(std::countr_zero(rest))))) {
-                seen |= rest & -rest;
-            }
-        }
-        counters_.items_hidden += items_of(first, sampled & ~seen);
-        return seen;
+        const std::uint32_t hidden = hidden_of(buffer, projected, sampled);
+        counters_.items_hidden += items_of(first, hidden);
+        return sampled & ~hidden;
     }
 
     const std::vector<std::uint32_t>& order_;

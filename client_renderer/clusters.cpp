@@ -42,7 +42,7 @@ BoxVector placed(const BoxVector& object, const std::array<glm::vec4, 3>& rows) 
     return {to[0], to[1], to[2], reach[0], reach[1], reach[2]};
 }
 
-ProjectingRows projecting_rows(const ClusterRange& range, const ClusterPlacement& placement) {
+ProjectingRows rows_of(const ClusterRange& range, const ClusterPlacement& placement) {
     ProjectingRows rows;
     std::array<std::array<float, 4>*, 3> to{&rows.x_px, &rows.y_px, &rows.distance};
     for (std::size_t i = 0; i < 3; ++i) {
@@ -89,7 +89,7 @@ public:
         : clusters_{clusters},
           view_{clusters.view()},
           placement_{placement},
-          rows_{projecting_rows(range, placement)},
+          rows_{rows_of(range, placement)},
           counters_{counters} {}
 
     /// Bits of the clusters from `first` on that may be seen.
@@ -131,15 +131,11 @@ private:
     }
 
     HWY_INLINE std::uint32_t not_hidden(const Projected& projected, std::uint32_t bits) {
-        std::uint32_t rest = bits & bits_of(worth_a_test(projected));
-        if (rest == 0) return bits;
-        const StoredBoxes stored{projected};
-        for (; rest != 0; rest &= rest - 1) {
-            if (!is_hidden(*view_.occlusion, lane(stored, static_cast<std::size_t>(std::countr_zero(rest))))) continue;
-            bits &= ~(rest & -rest);
-            ++counters_.occluded;
-        }
-        return bits;
+        const std::uint32_t worth = bits & bits_of(worth_a_test(projected));
+        if (worth == 0) return bits;
+        const std::uint32_t hidden = hidden_of(*view_.occlusion, projected, worth);
+        counters_.occluded += static_cast<std::uint64_t>(std::popcount(hidden));
+        return bits & ~hidden;
     }
 
     const Clusters& clusters_;

@@ -168,6 +168,7 @@ void Occluders::offer(const Query& query, const Item& item, std::uint32_t place)
 void Occluders::fetch(std::uint32_t place) const {
     if ((place & kNodeBit) == 0) {
         fetch_lines(&occluders_[items_[place].index]);
+        fetch_lines(&bounds_[items_[place].index]);
         return;
     }
     const scene::BvhNode& node = bvh_->nodes()[place & ~kNodeBit];

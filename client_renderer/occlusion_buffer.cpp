@@ -236,11 +236,11 @@ OcclusionBuffer::Split split_here(const OcclusionBuffer& buffer, const BoxList& 
         const BoxVector some = gather_boxes(boxes, candidates.data() + first, count);
         const Projected projected = project(some, buffer.view(), lowest_bits(count));
         const std::uint32_t sampled = bits_of(meets_sample(projected, buffer.view()));
-        const StoredBoxes stored{projected};
+        const std::uint32_t hidden = hidden_of(buffer, projected, sampled & lowest_bits(count));
         for (std::size_t i = 0; i < count; ++i) {
             if ((sampled >> i & 1U) == 0) {
                 ++split.between_samples;
-            } else if (is_hidden(buffer, lane(stored, i))) {
+            } else if ((hidden >> i & 1U) != 0) {
                 ++split.hidden;
             } else {
                 seen.push_back(candidates[first + i]);
@@ -251,7 +251,7 @@ OcclusionBuffer::Split split_here(const OcclusionBuffer& buffer, const BoxList& 
 }
 
 bool hides_here(const OcclusionBuffer& buffer, const glm::vec3& box_min, const glm::vec3& box_max) {
-    return is_hidden(buffer, project_one(box_min, box_max, buffer.view()));
+    return hidden_of(buffer, project_one(box_min, box_max, buffer.view()), 1U) != 0;
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ Camera camera_at(const scene::Scene& scene, int frame) {
 
 /// As drawing the frame before does.
 void forget_caches() {
-    static std::vector<std::uint64_t> other(std::size_t{1} << 20);
+    static std::vector<std::uint64_t> other(std::size_t{1} << 23);
     for (std::uint64_t& value : other) ++value;
     benchmark::DoNotOptimize(other.data());
 }

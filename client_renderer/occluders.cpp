@@ -1,7 +1,6 @@
 #include "client_renderer/occluders.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <optional>
 
@@ -36,30 +35,6 @@ Occluder placed_occluder(const scene::SolidBox& box, const PlacedInstance& place
 }
 
 float largest_face(const glm::vec3& size) { return std::max({size.x * size.y, size.y * size.z, size.z * size.x}); }
-
-/// How large something of that area looks, roughly, at the box's nearest point: area over squared distance.
-float score_of(float area, const glm::vec3& box_min, const glm::vec3& box_max, const glm::vec3& eye_world) {
-    const glm::vec3 to_box = glm::clamp(eye_world, box_min, box_max) - eye_world;
-    return area / (glm::dot(to_box, to_box) + 1.0F);
-}
-
-/// Without allowing for rounding: an occluder missed at the edge of the view hides nothing there.
-bool is_in_view(const FloatFrustum& frustum, const glm::vec3& box_min, const glm::vec3& box_max) {
-    for (const FloatFrustum::Plane& plane : frustum.planes) {
-        const float farthest = plane.x * (plane.x > 0.0F ? box_max.x : box_min.x) +
-                               plane.y * (plane.y > 0.0F ? box_max.y : box_min.y) +
-                               plane.z * (plane.z > 0.0F ? box_max.z : box_min.z) + plane.w;
-        if (farthest < 0.0F) return false;
-    }
-    return true;
-}
-
-constexpr std::uint32_t kNodeBit = 0x80000000U;
-
-/// For a heap: the best score on top (bits of positive floats are in the order of their values), equal ones by place.
-std::uint64_t candidate_of(float score, std::uint32_t place) {
-    return std::uint64_t{std::bit_cast<std::uint32_t>(score)} << 32U | std::uint32_t{~place};
-}
 
 /// The occluder made smaller, or nothing where it hides nothing from an eye within the margin.
 std::optional<ConvexSolid> usable(const Occluder& occluder, const Camera& camera, double margin_m) {
@@ -124,72 +99,49 @@ void Occluders::move(const PlacedInstances& placed) {
         const auto mesh = static_cast<std::size_t>(instance.mesh);
         occluders_[moving.occluder] = placed_occluder(boxes_of_meshes_[mesh][moving.box], instance);
         bounds_[moving.occluder] = occluders_[moving.occluder].bounds_world;
-        const std::uint32_t place = bvh_->place_of(static_cast<std::uint32_t>(moving.occluder));
-        items_[place] = item_of(static_cast<std::uint32_t>(moving.occluder));
     }
     bvh_->refit(moved_, bounds_);
-}
-
-Occluders::Item Occluders::item_of(std::uint32_t occluder) const {
-    // A mover's box changes as it turns, by less than this.
-    const float slack = occluder < static_count_ ? 1.0F : 2.0F;
-    const scene::Bounds& bounds = bounds_[occluder];
-    return {glm::vec3{bounds.min}, slack * largest_face(glm::vec3{bounds.max - bounds.min}), glm::vec3{bounds.max},
-            occluder};
+    tree_->move(*bvh_, moved_, bounds_);
 }
 
 void Occluders::index() {
     for (const Occluder& occluder : occluders_) bounds_.push_back(occluder.bounds_world);
     bvh_.emplace(bounds_, 8);
-    for (const std::uint32_t occluder : bvh_->order()) items_.push_back(item_of(occluder));
-    // Children come after their parents.
-    largest_areas_.assign(bvh_->nodes().size(), 0.0F);
-    for (std::size_t node = bvh_->nodes().size(); node-- > 0;) {
-        const auto index = static_cast<std::uint32_t>(node);
-        if (bvh_->nodes()[node].count > 0) {
-            for (std::uint32_t i = bvh_->first_item(index); i < bvh_->end_item(index); ++i) {
-                largest_areas_[node] = std::max(largest_areas_[node], items_[i].area);
-            }
+    tree_.emplace(*bvh_, bounds_);
+    // A vector of areas may begin at any slot, as one of boxes. Children come after their parents.
+    areas_.assign(tree_->boxes().size() + 4 * WideBvh::kMostChildren, 0.0F);
+    for (std::size_t slot = tree_->boxes().size(); slot-- > 0;) {
+        const WideBvh::Child& child = tree_->children()[slot];
+        if (child.is_item()) {
+            // A mover's box changes as it turns, by less than this.
+            const float slack = child.first < static_count_ ? 1.0F : 2.0F;
+            const scene::Bounds& bounds = bounds_[child.first];
+            areas_[slot] = slack * largest_face(glm::vec3{bounds.max - bounds.min});
+        } else {
+            const float* first = areas_.data() + child.first;
+            areas_[slot] = *std::max_element(first, first + child.slot_count);
         }
-        const std::uint32_t parent = bvh_->parent(index);
-        if (parent != scene::Bvh::kNone)
-            largest_areas_[parent] = std::max(largest_areas_[parent], largest_areas_[node]);
     }
 }
 
-void Occluders::offer(const Query& query, const Item& item, std::uint32_t place) {
-    const float score = score_of(item.area, item.min, item.max, query.eye_world);
-    if (score < query.least_score || !is_in_view(query.frustum, item.min, item.max)) return;
-    fetch(place);
-    candidates_.push_back(candidate_of(score, place));
-    std::ranges::push_heap(candidates_);
-}
-
-void Occluders::fetch(std::uint32_t place) const {
-    if ((place & kNodeBit) == 0) {
-        fetch_lines(&occluders_[items_[place].index]);
-        fetch_lines(&bounds_[items_[place].index]);
+void Occluders::fetch(const WideBvh::Child& child) const {
+    if (child.is_item()) {
+        fetch_lines(&occluders_[child.first]);
+        fetch_lines(&bounds_[child.first]);
         return;
     }
-    const scene::BvhNode& node = bvh_->nodes()[place & ~kNodeBit];
-    if (node.count == 0) {
-        fetch_lines(&bvh_->nodes()[node.first]);
-    } else {
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) fetch_lines(&items_[i]);
-    }
+    for (int row = 0; row < 6; ++row) fetch_run(tree_->boxes().row(row) + child.first, child.slot_count);
+    fetch_run(tree_->children() + child.first, child.slot_count);
+    fetch_run(areas_.data() + child.first, child.slot_count);
 }
 
-void Occluders::offer_inside(const Query& query, std::uint32_t node) {
-    const scene::BvhNode& here = bvh_->nodes()[node];
-    if (here.count == 0) {
-        for (const std::uint32_t child : {here.first, here.first + 1}) {
-            const scene::BvhNode& box = bvh_->nodes()[child];
-            offer(query, {box.min, largest_areas_[child], box.max, child}, child | kNodeBit);
-        }
-        return;
-    }
-    for (std::uint32_t i = here.first; i < here.first + here.count; ++i) {
-        if (items_[i].index < query.end) offer(query, items_[i], i);
+void Occluders::open(const OccluderQuery& query, const WideBvh::Child& node, const OcclusionBuffer& buffer) {
+    std::size_t end = candidates_.size();
+    append_worth(*tree_, node, areas_.data(), query, buffer, candidates_);
+    while (end < candidates_.size()) {
+        fetch(tree_->children()[candidates_[end].slot()]);
+        ++end;
+        std::push_heap(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(end));
     }
 }
 
@@ -200,25 +152,25 @@ std::size_t Occluders::draw(const Camera& camera, double margin_m, OcclusionBuff
     const glm::dvec2 part{(camera.fov.right - camera.fov.left) / (OcclusionBuffer::kParts * buffer.size_px().x),
                           (camera.fov.up - camera.fov.down) / (OcclusionBuffer::kParts * buffer.size_px().y)};
     // What moves has moved on while the frame is shown: with a margin only what stands still hides anything.
-    const Query query{rounded(frustum_of(camera)), glm::vec3{camera.world_from_eye.position_m},
-                      static_cast<float>(kLeastParts * part.x * part.y),
-                      margin_m > 0.0 ? static_cast<std::uint32_t>(static_count_) : 0xFFFFFFFFU};
-    candidates_.push_back(candidate_of(1e30F, scene::Bvh::kRoot | kNodeBit));
+    const OccluderQuery query{rounded(frustum_of(camera)), glm::vec3{camera.world_from_eye.position_m},
+                              static_cast<float>(kLeastParts * part.x * part.y),
+                              margin_m > 0.0 ? static_cast<std::uint32_t>(static_count_) : 0xFFFFFFFFU};
+    open(query, tree_->root(), buffer);
     std::size_t drawn = 0;
     while (!candidates_.empty() && drawn < kMostDrawn) {
-        std::ranges::pop_heap(candidates_);
-        const std::uint32_t place = ~static_cast<std::uint32_t>(candidates_.back());
+        std::pop_heap(candidates_.begin(), candidates_.end());
+        const WideBvh::Child& child = tree_->children()[candidates_.back().slot()];
         candidates_.pop_back();
-        if ((place & kNodeBit) != 0) {
-            const std::uint32_t node = place & ~kNodeBit;
-            if (!buffer.hides(bvh_->nodes()[node].min, bvh_->nodes()[node].max)) offer_inside(query, node);
+        if (!child.is_item()) {
+            open(query, child, buffer);
             continue;
         }
-        const Item& item = items_[place];
-        if (buffer.hides(item.min, item.max)) continue;
-        const auto solid = usable(occluders_[item.index], camera, margin_m);
+        // What was drawn since it was found may hide it.
+        const scene::Bounds& bounds = bounds_[child.first];
+        if (buffer.hides(glm::vec3{bounds.min}, glm::vec3{bounds.max})) continue;
+        const auto solid = usable(occluders_[child.first], camera, margin_m);
         if (!solid) continue;
-        buffer.add(*solid, bounds_[item.index]);
+        buffer.add(*solid, bounds);
         ++drawn;
     }
     return drawn;

@@ -7,9 +7,10 @@
 #include <optional>
 #include <vector>
 
-#include "client_renderer/frustum.h"
+#include "client_renderer/occluder_search.h"
 #include "client_renderer/occlusion_buffer.h"
 #include "client_renderer/placed_instances.h"
+#include "client_renderer/wide_bvh.h"
 #include "scene/bvh.h"
 #include "scene/solid_boxes.h"
 
@@ -52,23 +53,8 @@ private:
         std::size_t box = 0;  ///< of its mesh
     };
 
-    /// A node of the hierarchy, or an occluder.
-    struct Item {
-        glm::vec3 min{0.0F};
-        float area = 0.0F;  ///< square metres of its largest side; of a node, of any in it
-        glm::vec3 max{0.0F};
-        std::uint32_t index = 0;
-    };
-    struct Query {
-        FloatFrustum frustum;
-        glm::vec3 eye_world{0.0F};
-        float least_score = 0.0F;
-        std::uint32_t end = 0;  ///< occluders before it
-    };
-    [[nodiscard]] Item item_of(std::uint32_t occluder) const;
-    void offer(const Query& query, const Item& item, std::uint32_t place);
-    void offer_inside(const Query& query, std::uint32_t node);
-    void fetch(std::uint32_t place) const;
+    void open(const OccluderQuery& query, const WideBvh::Child& node, const OcclusionBuffer& buffer);
+    void fetch(const WideBvh::Child& child) const;
     void index();
 
     std::vector<std::vector<scene::SolidBox>> boxes_of_meshes_;
@@ -78,9 +64,9 @@ private:
     std::vector<scene::Bounds> bounds_;  ///< of the occluders, for the hierarchy
     std::vector<std::uint32_t> moved_;
     std::optional<scene::Bvh> bvh_;
-    std::vector<Item> items_;                ///< in the order of the hierarchy
-    std::vector<float> largest_areas_;       ///< by node
-    std::vector<std::uint64_t> candidates_;  ///< a heap: score, and the place in items_ or a node
+    std::optional<WideBvh> tree_;
+    std::vector<float> areas_;                   ///< by slot of the tree, see append_worth()
+    std::vector<OccluderCandidate> candidates_;  ///< a heap
 };
 
 }  // namespace lw

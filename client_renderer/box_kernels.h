@@ -161,6 +161,12 @@ HWY_INLINE ProjectingRows projecting_rows(const OcclusionBuffer::View& view) {
 
 using Vector3 = std::array<VF, 3>;
 
+HWY_INLINE VF affine(const std::array<float, 4>& row, const Vector3& v) {
+    const DF d;
+    return hn::MulAdd(hn::Set(d, row[0]), v[0],
+                      hn::MulAdd(hn::Set(d, row[1]), v[1], hn::MulAdd(hn::Set(d, row[2]), v[2], hn::Set(d, row[3]))));
+}
+
 HWY_INLINE VF dot(const float* row, const Vector3& v) {
     const DF d;
     return hn::MulAdd(hn::Set(d, row[0]), v[0],
@@ -176,7 +182,7 @@ HWY_INLINE MF project_from_afar(const Vector3& centre, const Vector3& half, cons
                                 Projected& projected) {
     const DF d;
     const VF one = hn::Set(d, 1.0F);
-    const VF z = hn::Add(dot(rows.distance.data(), centre), hn::Set(d, rows.distance[3]));
+    const VF z = affine(rows.distance, centre);
     VF depth = hn::Set(d, rows.rounding[2]);
     for (std::size_t i = 0; i < 3; ++i) depth = hn::MulAdd(hn::Set(d, std::abs(rows.distance[i])), half[i], depth);
     const VF nearest = hn::Sub(z, depth);
@@ -184,7 +190,7 @@ HWY_INLINE MF project_from_afar(const Vector3& centre, const Vector3& half, cons
     const VF per_z = hn::Mul(per_both, nearest);
     const VF per_nearest = hn::Mul(per_both, z);
     const auto place = [&](const std::array<float, 4>& row, float rounding, VF& low, VF& high) HWY_ATTR {
-        const VF u = hn::Mul(hn::Add(dot(row.data(), centre), hn::Set(d, row[3])), per_z);
+        const VF u = hn::Mul(affine(row, centre), per_z);
         VF reach = hn::MulAdd(hn::Abs(u), hn::Set(d, rows.rounding[2]), hn::Set(d, rounding));
         for (std::size_t i = 0; i < 3; ++i) {
             const VF across = hn::NegMulAdd(u, hn::Set(d, rows.distance[i]), hn::Set(d, row[i]));
@@ -310,9 +316,8 @@ HWY_INLINE Projected project_one(const glm::vec3& box_min, const glm::vec3& box_
 /// Lanes whose boxes reach into the picture, or before the near plane.
 HWY_INLINE MF in_picture(const Projected& projected, const OcclusionBuffer::View& view) {
     const DF d;
-    const VF snap = hn::Set(d, kSnapPx);
     const auto inside = [&](VF low, VF high, float size) HWY_ATTR {
-        return hn::And(hn::Ge(hn::Add(high, snap), hn::Zero(d)), hn::Le(hn::Sub(low, snap), hn::Set(d, size)));
+        return hn::And(hn::Ge(high, hn::Set(d, -kSnapPx)), hn::Le(low, hn::Set(d, size + kSnapPx)));
     };
     const MF before_near = hn::Ge(projected.reverse, hn::Set(d, kBeforeNear));
     return hn::Or(before_near, hn::And(inside(projected.x0, projected.x1, view.size_px[0]),
@@ -325,10 +330,9 @@ HWY_INLINE MF meets_sample(const Projected& projected, const OcclusionBuffer::Vi
     const DF d;
     const auto meets = [&](VF low, VF high, float samples_per_px) HWY_ATTR {
         const VF scale = hn::Set(d, samples_per_px);
-        const VF snap = hn::Set(d, kSnapPx);
-        const VF half = hn::Set(d, 0.5F);
-        const VF first = hn::Ceil(hn::Sub(hn::Mul(hn::Sub(low, snap), scale), half));
-        const VF last = hn::Floor(hn::Sub(hn::Mul(hn::Add(high, snap), scale), half));
+        const float snap = kSnapPx * samples_per_px;
+        const VF first = hn::Ceil(hn::MulAdd(low, scale, hn::Set(d, -snap - 0.5F)));
+        const VF last = hn::Floor(hn::MulAdd(high, scale, hn::Set(d, snap - 0.5F)));
         return hn::Le(first, last);
     };
     const MF before_near = hn::Ge(projected.reverse, hn::Set(d, kBeforeNear));
@@ -378,18 +382,18 @@ struct StoredRects {
     StoredRects(const Projected& boxes, const OcclusionBuffer& buffer) {
         const DF d;
         const DI di;
-        const VF snap = hn::Set(d, kSnapPx);
         const VF parts = hn::Set(d, static_cast<float>(OcclusionBuffer::kParts));
+        const VF snap = hn::Set(d, OcclusionBuffer::kParts * kSnapPx);
         const auto store = [&](VF place, int last, std::array<std::int32_t, kMaxLanes>& to) HWY_ATTR {
             const VF inside = hn::Min(hn::Max(place, hn::Zero(d)), hn::Set(d, static_cast<float>(last)));
             hn::Store(hn::ConvertTo(di, inside), di, to.data());
         };
         const int last_x = OcclusionBuffer::kParts * buffer.size_px().x - 1;
         const int last_y = OcclusionBuffer::kParts * buffer.size_px().y - 1;
-        store(hn::Mul(parts, hn::Sub(boxes.x0, snap)), last_x, x0);
-        store(hn::Mul(parts, hn::Sub(boxes.y0, snap)), last_y, y0);
-        store(hn::Mul(parts, hn::Add(boxes.x1, snap)), last_x, x1);
-        store(hn::Mul(parts, hn::Add(boxes.y1, snap)), last_y, y1);
+        store(hn::MulSub(parts, boxes.x0, snap), last_x, x0);
+        store(hn::MulSub(parts, boxes.y0, snap), last_y, y0);
+        store(hn::MulAdd(parts, boxes.x1, snap), last_x, x1);
+        store(hn::MulAdd(parts, boxes.y1, snap), last_y, y1);
         hn::Store(boxes.reverse, d, reverse.data());
     }
     // In parts of pixels, the last included.

@@ -199,8 +199,6 @@ ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<st
                   cut.cone_cutoff + kEdgeOn};
         if (double_sided || !(glm::length(cone.axis_object) > 0.5F)) cone.cutoff = 2.0F;
         cones_.push_back(cone);
-        first_indices_.push_back(static_cast<std::uint32_t>(next));
-        index_counts_.push_back(3 * meshlet.triangle_count);
         scene::Bounds bounds;
         for (std::size_t i = 0; i < 3 * std::size_t{meshlet.triangle_count}; ++i) {
             const unsigned vertex =
@@ -209,6 +207,7 @@ ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<st
             bounds.include(glm::dvec3{vertices[vertex].position_object});
         }
         bounds_.push_back(bounds);
+        end_indices_.push_back(static_cast<std::uint32_t>(next));
     }
     range.count = static_cast<std::uint32_t>(meshlets.size());
     for (const scene::Vertex& vertex : vertices) {
@@ -291,8 +290,8 @@ void Clusters::append_runs(const ClusterRange& part, std::span<const std::uint64
         if (first >= part.count) break;
         const auto length = static_cast<std::uint32_t>(std::countr_one(bits >> (first - i)));
         i = std::min(first + length, part.count);
-        const std::uint32_t begin = first_indices_[part.first + first];
-        const std::uint32_t end = first_indices_[part.first + i - 1] + index_counts_[part.first + i - 1];
+        const std::uint32_t begin = first == 0 ? 0 : end_indices_[part.first + first - 1];
+        const std::uint32_t end = end_indices_[part.first + i - 1];
         if (runs.size() > first_new && begin - (runs.back().first + runs.back().count) < kWorthADraw) {
             runs.back().count = end - runs.back().first;
         } else {

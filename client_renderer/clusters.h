@@ -111,10 +111,9 @@ public:
 private:
     [[nodiscard]] ClusterPlacement placement(const glm::dmat4& world_from_object) const;
 
-    std::vector<scene::Bounds> bounds_;         ///< object space
-    std::vector<Cone> cones_;                   ///< the same clusters
-    std::vector<std::uint32_t> first_indices_;  ///< of each cluster in its part
-    std::vector<std::uint32_t> index_counts_;
+    std::vector<scene::Bounds> bounds_;       ///< object space
+    std::vector<Cone> cones_;                 ///< the same clusters
+    std::vector<std::uint32_t> end_indices_;  ///< of each cluster in its part, where the next one begins
     BoxList boxes_;
     std::vector<float> cone_rows_;
     std::size_t cone_stride_ = 0;

@@ -111,17 +111,17 @@ public:
 
     void draw(const Camera& part) override {
         quads_.clear();
+        fading_.clear();
         for (const Entry& entry : entries_) {
             if (entry.shown != Shown::billboard) continue;
-            const Look look = withholds_ && entry.before.current ? entry.before : look_of(entry);
-            // The new version comes in over the old one, and then the old one goes where the new one does not cover it:
-            // nowhere does what lies behind both shine through.
-            const float fade = look.fade;
-            append(entry, *look.current, part, std::min(2.0f * fade, 1.0f), look.previous.has_value());
-            if (look.previous) append(entry, *look.previous, part, std::min(2.0f - 2.0f * fade, 1.0f), false);
+            append(entry, withholds_ && entry.before.current ? entry.before : look_of(entry), part);
         }
         pass_.draw(quads_, atlas_, part);
     }
+
+    [[nodiscard]] bool fades() const override { return !fading_.empty(); }
+
+    void draw_fading(const Camera& part) override { pass_.draw_lit(fading_, atlas_, part); }
 
     void withhold_updates(bool withhold) override {
         LW_CHECK(!withhold || settings_.keep_replaced, "nothing was kept of the last frame");
@@ -417,13 +417,32 @@ private:
         return record;
     }
 
-    void append(const Entry& entry, const Version& version, const Camera& part, float opacity, bool replaces) {
-        std::optional<shader::BillboardRecord> record = quad_of(entry, version, part);
-        if (!record) return;
+    /// The new version comes in over the old one, and then the old one goes where the new one does not cover it:
+    /// nowhere does what lies behind both shine through.
+    void append(const Entry& entry, const Look& look, const Camera& part) {
+        std::optional<DrawnQuad> now = drawn_quad(entry, *look.current, part);
+        std::optional<DrawnQuad> before;
+        if (look.previous) before = drawn_quad(entry, *look.previous, part);
+        if (!now || !before) {
+            if (now) quads_.push_back(*now);
+            return;
+        }
         // By more than two versions of a surface differ, so that the new one is seen.
-        if (replaces) record->extent.y = 1.0f + kReplacesNearer;
+        now->record.extent.y = 1.0f + kReplacesNearer;
+        now->opacity = 2.0f * look.fade;
+        before->opacity = 2.0f - 2.0f * look.fade;
+        const bool comes_in = now->opacity < 1.0f;
+        quads_.push_back(comes_in ? *before : *now);
+        quads_.back().opacity = 1.0f;
+        fading_.push_back(comes_in ? *now : *before);
+    }
+
+    [[nodiscard]] std::optional<DrawnQuad> drawn_quad(const Entry& entry, const Version& version,
+                                                      const Camera& part) const {
+        std::optional<shader::BillboardRecord> record = quad_of(entry, version, part);
+        if (!record) return std::nullopt;
         record->object.x = entry.object.id;
-        quads_.push_back({version.slot.level, *record, opacity, replaces});
+        return DrawnQuad{version.slot.level, *record, 1.0f};
     }
 
     void begin_stage() {
@@ -466,6 +485,7 @@ private:
     std::vector<PaintedView> views_;
     std::vector<int> cleared_;
     std::vector<DrawnQuad> quads_;
+    std::vector<DrawnQuad> fading_;  ///< of the part drawn last
 };
 
 }  // namespace
@@ -475,7 +495,8 @@ Result<std::unique_ptr<BillboardField>> BillboardField::create(const scene::Scen
                                                                const Clock* stage_clock) {
     auto atlas = BillboardAtlas::create(settings.format, settings.capacities);
     if (!atlas.ok()) return atlas.error();
-    auto pass = BillboardPass::create(settings.format, settings.expansion, settings.mode == BillboardMode::warped);
+    auto pass = BillboardPass::create({settings.format, settings.expansion, settings.mode == BillboardMode::warped,
+                                       settings.fade_frames > 0, !scene.point_lights.empty()});
     if (!pass.ok()) return pass.error();
     return std::unique_ptr<BillboardField>{
         std::make_unique<Field>(scene, painter, settings, stage_clock, std::move(*atlas), std::move(*pass))};

@@ -54,9 +54,15 @@ public:
     /// By index into the scene's instances: 1 where a billboard stands for the instance in this frame.
     [[nodiscard]] virtual std::span<const std::uint8_t> replaced() const = 0;
 
-    /// Draws the frame's billboards into the G-buffer that is bound. `part` has the eye of prepare()'s camera: the
-    /// whole or a tile of it.
+    /// Draws the frame's billboards into the G-buffer that is bound, of those that fade the version that is opaque.
+    /// `part` has the eye of prepare()'s camera: the whole or a tile of it.
     virtual void draw(const Camera& part) = 0;
+
+    /// After draw() of the same part and its light: blends what fades into the picture, whose colour, ids and depth are
+    /// bound, as are the blocks of the light pass.
+    virtual void draw_fading(const Camera& part) = 0;
+    /// Whether draw_fading() has anything to draw.
+    [[nodiscard]] virtual bool fades() const = 0;
 
     /// From now on draw() shows each billboard as the frame before did, where that had one: the picture without this
     /// frame's updates and steps of fades. Only with BillboardSettings::keep_replaced.

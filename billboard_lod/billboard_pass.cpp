@@ -4,19 +4,12 @@
 #include <compare>
 #include <string>
 
+#include "core/check.h"
 #include "gl/stream_buffer.h"
 
 namespace lw {
 
 namespace {
-
-Result<gl::Program> compile(QuadExpansion expansion, const std::string& defines) {
-    if (expansion == QuadExpansion::geometry) {
-        return gl::Program::create({"billboards/point.vert", "billboards/quad.geom", "billboards/billboard.frag"},
-                                   defines);
-    }
-    return gl::Program::create({"billboards/quad.vert", "billboards/billboard.frag"}, defines);
-}
 
 /// NDC = tangent * xy + zw.
 glm::vec4 ndc_from_tangent(const FovTangents& fov) {
@@ -27,44 +20,31 @@ glm::vec4 ndc_from_tangent(const FovTangents& fov) {
 
 /// What is drawn at once, in the order in which it is drawn.
 struct Batch {
-    bool replaces;
-    bool blended;
     float opacity;
     std::size_t level;
 
     friend auto operator<=>(const Batch&, const Batch&) = default;
 };
 
-Batch batch_of(const DrawnQuad& quad) { return {quad.replaces, quad.opacity < 1.0f, quad.opacity, quad.level}; }
-
-/// Over the surfaces of the G-buffer; its ids are integers, which are never blended.
-void blend(float opacity) {
-    constexpr GLuint kSurfaces = 3;
-    for (GLuint i = 0; i < kSurfaces; ++i) {
-        if (opacity < 1.0f) {
-            glEnablei(GL_BLEND, i);
-        } else {
-            glDisablei(GL_BLEND, i);
-        }
-    }
-    glBlendColor(0.0f, 0.0f, 0.0f, opacity);
-    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
-}
+Batch batch_of(const DrawnQuad& quad) { return {quad.opacity, quad.level}; }
 
 }  // namespace
 
-Result<BillboardPass> BillboardPass::create(AtlasFormat format, QuadExpansion expansion, bool warped) {
+Result<BillboardPass> BillboardPass::create(const BillboardPassSettings& settings) {
     BillboardPass pass;
-    pass.expansion_ = expansion;
-    std::string defines{defines_of(format)};
-    if (warped) defines += "#define WARPED\n";
-    if (expansion == QuadExpansion::instances) defines += "#define INSTANCED\n";
-    auto program = compile(expansion, defines);
-    if (!program.ok()) return program.error();
-    pass.program_ = std::move(*program);
-    pass.ndc_from_tangent_ = pass.program_.uniform("u_ndc_from_tangent");
-    pass.near_m_ = pass.program_.uniform("u_near_m");
-    if (expansion != QuadExpansion::geometry) pass.first_ = pass.program_.uniform("u_first");
+    pass.expansion_ = settings.expansion;
+    std::string defines{defines_of(settings.format)};
+    if (settings.warped) defines += "#define WARPED\n";
+    if (settings.expansion == QuadExpansion::instances) defines += "#define INSTANCED\n";
+    auto surfaces = compile(settings.expansion, defines);
+    if (!surfaces.ok()) return surfaces.error();
+    pass.surfaces_ = std::move(*surfaces);
+    if (settings.into_picture) {
+        if (settings.point_lights) defines += "#define POINT_LIGHTS\n";
+        auto lit = compile(settings.expansion, defines + "#define LIT\n");
+        if (!lit.ok()) return lit.error();
+        pass.lit_ = std::move(*lit);
+    }
     pass.records_ = gl::make_stream_buffer();
     pass.active_ = gl::make_stream_buffer();
     pass.vertex_array_ = gl::make_vertex_array();
@@ -72,7 +52,35 @@ Result<BillboardPass> BillboardPass::create(AtlasFormat format, QuadExpansion ex
     return pass;
 }
 
+Result<BillboardPass::Way> BillboardPass::compile(QuadExpansion expansion, const std::string& defines) {
+    const bool geometry = expansion == QuadExpansion::geometry;
+    auto program = geometry
+                       ? gl::Program::create(
+                             {"billboards/point.vert", "billboards/quad.geom", "billboards/billboard.frag"}, defines)
+                       : gl::Program::create({"billboards/quad.vert", "billboards/billboard.frag"}, defines);
+    if (!program.ok()) return program.error();
+    Way way;
+    way.program = std::move(*program);
+    way.ndc_from_tangent = way.program.uniform("u_ndc_from_tangent");
+    way.near_m = way.program.uniform("u_near_m");
+    if (!geometry) way.first = way.program.uniform("u_first");
+    return way;
+}
+
 void BillboardPass::draw(std::span<const DrawnQuad> quads, const BillboardAtlas& atlas, const Camera& camera) {
+    draw(surfaces_, quads, atlas, camera);
+}
+
+void BillboardPass::draw_lit(std::span<const DrawnQuad> quads, const BillboardAtlas& atlas, const Camera& camera) {
+    LW_CHECK(lit_.program.id() != 0, "made without into_picture");
+    glEnablei(GL_BLEND, 0);  // ids are integers, which are never blended
+    glBlendFunc(GL_CONSTANT_ALPHA, GL_ONE_MINUS_CONSTANT_ALPHA);
+    draw(lit_, quads, atlas, camera);
+    glDisablei(GL_BLEND, 0);
+}
+
+void BillboardPass::draw(const Way& way, std::span<const DrawnQuad> quads, const BillboardAtlas& atlas,
+                         const Camera& camera) {
     if (quads.empty()) return;
     record_list_.clear();
     active_list_.clear();
@@ -89,28 +97,27 @@ void BillboardPass::draw(std::span<const DrawnQuad> quads, const BillboardAtlas&
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_GEQUAL);
     glDepthMask(GL_TRUE);
-    program_.use();
-    program_.set(ndc_from_tangent_, ndc_from_tangent(camera.fov));
-    program_.set(near_m_, static_cast<float>(camera.near_m));
+    way.program.use();
+    way.program.set(way.ndc_from_tangent, ndc_from_tangent(camera.fov));
+    way.program.set(way.near_m, static_cast<float>(camera.near_m));
     for (std::size_t first = 0, end = 0; first < active_list_.size(); first = end) {
         const Batch batch = batch_of(quads[active_list_[first]]);
         while (end < active_list_.size() && batch_of(quads[active_list_[end]]) == batch) ++end;
-        blend(batch.opacity);
+        glBlendColor(0.0f, 0.0f, 0.0f, batch.opacity);
         atlas.bind_textures(batch.level);
-        draw_range(first, end - first);
+        draw_range(way, first, end - first);
     }
-    blend(1.0f);
     glDisable(GL_DEPTH_TEST);
     glBindVertexArray(0);
 }
 
-void BillboardPass::draw_range(std::size_t first, std::size_t count) const {
+void BillboardPass::draw_range(const Way& way, std::size_t first, std::size_t count) const {
     const auto quads = static_cast<GLsizei>(count);
     if (expansion_ == QuadExpansion::geometry) {
         glDrawElements(GL_POINTS, quads, GL_UNSIGNED_INT, gl::buffer_offset(first * sizeof(std::uint32_t)));
         return;
     }
-    program_.set(first_, static_cast<int>(first));
+    way.program.set(way.first, static_cast<int>(first));
     if (expansion_ == QuadExpansion::instances) {
         glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, quads);
     } else {

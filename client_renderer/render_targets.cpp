@@ -16,8 +16,11 @@ Result<std::unique_ptr<RenderTargets>> RenderTargets::create(glm::ivec2 size_px)
     if (!gbuffer.ok()) return gbuffer.error();
     auto lit = gl::Framebuffer::create({&targets->colour}, &targets->depth);
     if (!lit.ok()) return lit.error();
+    auto picture = gl::Framebuffer::create({&targets->colour, &targets->object_id}, &targets->depth);
+    if (!picture.ok()) return picture.error();
     targets->gbuffer = std::move(*gbuffer);
     targets->lit = std::move(*lit);
+    targets->picture = std::move(*picture);
     return targets;
 }
 

@@ -19,6 +19,7 @@ struct RenderTargets {
     gl::Texture colour;             ///< SRGB8_ALPHA8, holds encoded values
     gl::Framebuffer gbuffer;        ///< the first four and depth
     gl::Framebuffer lit;            ///< colour, with depth to test against
+    gl::Framebuffer picture;        ///< colour and object id, with depth: for what is drawn after the light
 
     /// Both sides of `size_px` >= 1.
     [[nodiscard]] static Result<std::unique_ptr<RenderTargets>> create(glm::ivec2 size_px);

@@ -331,6 +331,12 @@ private:
             if (part_.sky) sky_.build(camera, scene_.sun);
             lighting_.draw(targets, lights_, part_.sky ? sky_.rects() : std::span<const SkyRect>{});
         });
+        if (replace_by_billboards_ && field_->fades()) {
+            timed(counters_.billboards_ms, [&] {
+                targets.picture.bind();
+                field_->draw_fading(camera);
+            });
+        }
         return targets;
     }
 

@@ -1,8 +1,12 @@
 #version 450 core
-// Copies a billboard's surface into the scene's G-buffer and corrects its depth. Flat: the quad's texel, as deep as it
+// Copies a billboard's surface into the scene's G-buffer, or lights it for a picture (LIT), and corrects its depth. Flat: the quad's texel, as deep as it
 // was behind or before the plane. Warped: the texel that belongs here, found along the pixel's ray.
 #include "billboard_blocks.h"
 #include "billboards/packed_surface.glsl"
+#ifdef LIT
+#include "client_blocks.h"
+#include "client/surface_light.glsl"
+#endif
 
 uniform float u_near_m;
 
@@ -27,10 +31,15 @@ flat in vec3 v_depth;
 flat in float v_nearer;  // a version that fades in lies before the one that it replaces
 flat in uint v_object_id;
 
+#ifdef LIT
+layout(location = 0) out vec4 o_colour;
+layout(location = 1) out uint o_object_id;
+#else
 layout(location = 0) out vec4 o_albedo_roughness;
 layout(location = 1) out vec2 o_normal;
 layout(location = 2) out vec4 o_emissive_metallic;
 layout(location = 3) out uint o_object_id;
+#endif
 
 #ifdef WARPED
 struct Candidate {
@@ -55,6 +64,20 @@ Candidate candidate_at(float q) {
 }
 #endif
 
+void read_surface(ivec2 texel, out vec4 albedo_roughness, out vec2 normal, out vec4 emissive_metallic) {
+#ifdef PACKED
+    unpack_surface(texelFetch(u_surface, texel, 0).rg, albedo_roughness, normal, emissive_metallic);
+#elif defined(SHARED_COLOUR)
+    normal = texelFetch(u_normal, texel, 0).rg;
+    split_colour(texelFetch(u_albedo_roughness, texel, 0), texelFetch(u_emissive_metallic, texel, 0).rg,
+                 albedo_roughness, emissive_metallic);
+#else
+    albedo_roughness = texelFetch(u_albedo_roughness, texel, 0);
+    normal = texelFetch(u_normal, texel, 0).rg;
+    emissive_metallic = texelFetch(u_emissive_metallic, texel, 0);
+#endif
+}
+
 void main() {
 #ifdef WARPED
     // The ray is followed from its nearest place on. What shows is a texel that lies where its own surface crosses the
@@ -76,26 +99,25 @@ void main() {
         }
     }
     if (q <= 0.0) discard;
-    gl_FragDepth = u_near_m * q * v_nearer;
+    float depth = u_near_m * q;
 #else
     ivec2 texel = ivec2(v_slot.xy + clamp(floor(v_texel), vec2(0.0), v_slot.zw - 1.0));
     float stored = texelFetch(u_depth, texel, 0).r;
     if (stored == 0.0) discard;
     float distance_m = 1.0 / (stored * v_depth.x + v_depth.y) + v_depth.z;
     if (distance_m < u_near_m) discard;
-    gl_FragDepth = u_near_m / distance_m * v_nearer;
+    float depth = u_near_m / distance_m;
 #endif
 
-#ifdef PACKED
-    unpack_surface(texelFetch(u_surface, texel, 0).rg, o_albedo_roughness, o_normal, o_emissive_metallic);
-#elif defined(SHARED_COLOUR)
-    o_normal = texelFetch(u_normal, texel, 0).rg;
-    split_colour(texelFetch(u_albedo_roughness, texel, 0), texelFetch(u_emissive_metallic, texel, 0).rg,
-                 o_albedo_roughness, o_emissive_metallic);
-#else
-    o_albedo_roughness = texelFetch(u_albedo_roughness, texel, 0);
-    o_normal = texelFetch(u_normal, texel, 0).rg;
-    o_emissive_metallic = texelFetch(u_emissive_metallic, texel, 0);
-#endif
+    gl_FragDepth = depth * v_nearer;
     o_object_id = v_object_id;
+#ifdef LIT
+    vec4 albedo_roughness;
+    vec2 normal;
+    vec4 emissive_metallic;
+    read_surface(texel, albedo_roughness, normal, emissive_metallic);
+    o_colour = vec4(lit_surface(albedo_roughness, normal, emissive_metallic, depth), 1.0);
+#else
+    read_surface(texel, o_albedo_roughness, o_normal, o_emissive_metallic);
+#endif
 }

@@ -28,7 +28,8 @@ void declare_shells(Declarer& declare) {
                       shells.on = text != "off";
                       shells.shells = shells.on && text != "auto" ? static_cast<int>(*parsed_number(text)) : 0;
                   });
-    declare.value("--shell-samples", "N", "NxN samples per pixel of the outer shells: 1, 2 or 4 (1)",
+    declare.value("--shell-samples", "N",
+                  "NxN samples per pixel of the outer shells, where the budget allows: 1, 2 or 4 (2)",
                   [&shells](const std::string& text) {
                       check_name("number of samples", "--shell-samples", text, {"1", "2", "4"});
                       shells.samples_per_axis = static_cast<int>(*parsed_number(text));

@@ -15,16 +15,24 @@ constexpr std::size_t kMostShells = 4;
 constexpr int kProbePx = 64;
 // A part of the display is looked at by so many squared directions.
 constexpr int kDisplayProbes = 8;
-// Of the budget: the view is drawn with less around and behind it where it would take more, outer tiles with fewer
-// samples.
-constexpr double kMostForTheView = 0.85;
+// Of the budget: the view is drawn less finely where it would take more, outer tiles with fewer samples. Tiles that are
+// worth more than a denser view get so much of it at most.
+constexpr double kMostForTheView = 0.93;
+constexpr double kMostForTiles = 0.4;
+// Of the budget: saved up in every frame for tiles that are worth less.
+constexpr double kSavedForTiles = 0.05;
+// What a denser view puts right: in `city` at 512x512 FLIP falls by 0.003 from density 1.5 to 2, as if 2000 pixels were
+// no longer wrong, for 87 ms.
+constexpr double kDenserView_px_per_ms = 25.0;
 // Tiles hold what an eye that moves by so much may see; what it sees beyond, the server reports. At 2.8 m, as far as
 // shells overlap in `city`, hardly anything hides anything, and a tile took more than the budget.
 constexpr double kTileReveal_m = 0.5;
+// Of what the view holds: so much counts as near.
+constexpr double kNearShare = 0.1;
 // Of the nearest shell's reach: so far the head walks before its ranges are thought over.
 constexpr double kReconsiderRanges = 0.5;
 constexpr double kMostForATile = 0.5;
-constexpr double kEnoughOfTheBudget = 0.92;  // costs vary: this much of it is planned with
+constexpr double kEnoughOfTheBudget = 0.95;  // costs vary: this much of it is planned with
 
 double pixel_count(const Camera& camera) { return static_cast<double>(camera.size_px.x) * camera.size_px.y; }
 
@@ -113,8 +121,9 @@ int ShellClient::samples_of(std::size_t item) const {
 // What the view costs, and how finely everything is drawn.
 
 Camera ShellClient::view_camera(const ViewPlan& plan, const ShellMoment& moment) const {
-    Camera camera = plan.guard_band ? moment.source : source_camera(display_, source_.density, 0.0);
-    camera.size_px = {std::lround(plan.density * camera.size_px.x), std::lround(plan.density * camera.size_px.y)};
+    Camera camera = extended(display_, extent_.scaled(plan.extent_share));
+    const double density = source_.density * plan.density;
+    camera.size_px = {std::lround(density * camera.size_px.x), std::lround(density * camera.size_px.y)};
     return at_pose(camera, moment.shown_middle);
 }
 
@@ -124,15 +133,49 @@ double ShellClient::expected_view_ms(const ViewPlan& plan, const ShellMoment& mo
 }
 
 double ShellClient::expected_ms(std::size_t item, const ShellMoment& moment) const {
-    return item == kView ? expected_view_ms(plan_, moment) : costs_.expected_ms(item, guessed_cost_ms(item));
+    return item == kView ? expected_view_ms(plan_, moment) : expected_tile_ms(item);
 }
 
-void ShellClient::plan_view(const ShellMoment& moment, double budget_ms) {
+double ShellClient::expected_tile_ms(std::size_t item) const { return costs_.expected_ms(item, guessed_cost_ms(item)); }
+
+// Beyond it lie nine tenths of what the last view held.
+double ShellClient::near_in_view_m() const {
+    std::vector<double> seen_m = items_[kView].statistics.ray_m;
+    if (seen_m.empty()) return ranges_.front().farthest_m;
+    const auto at = seen_m.begin() + static_cast<std::ptrdiff_t>(kNearShare * static_cast<double>(seen_m.size()));
+    std::nth_element(seen_m.begin(), at, seen_m.end());
+    return *at;
+}
+
+void ShellClient::plan_extent(const ShellMoment& moment) {
+    const ViewMotion motion{moment.shown_middle, moment.shown_from, moment.shown_until, near_in_view_m()};
+    extent_ = next_extent(display_, motion, extent_);
+}
+
+void ShellClient::plan_view(const ShellMoment& moment, double most_ms) {
     for (const ViewPlan& plan : view_plans()) {
         if (plan.hidden && source_.layers < 2) continue;
         plan_ = plan;
-        if (expected_view_ms(plan, moment) <= kMostForTheView * budget_ms) return;
+        if (expected_view_ms(plan, moment) <= most_ms) return;
     }
+}
+
+// Those that are worth more than a denser view, and as many as were saved up for: a dense view would leave them
+// nothing.
+double ShellClient::needed_by_tiles_ms(std::span<const DrawCandidate> tiles, const BudgetSettings& budget) const {
+    const double most_ms = kMostForTiles * budget.budget_ms;
+    double urgent_ms = 0.0;
+    for (const DrawCandidate& tile : tiles) {
+        const bool fits = urgent_ms + tile.cost_ms <= most_ms;
+        if (fits && tile.priority > kDenserView_px_per_ms * tile.cost_ms) urgent_ms += tile.cost_ms;
+    }
+    BudgetSettings saved = budget;
+    saved.budget_ms = std::min(saved_for_tiles_ms_, most_ms);
+    double saved_for_ms = 0.0;
+    for (const std::size_t index : choose_items({tiles.begin(), tiles.end()}, saved)) {
+        saved_for_ms += expected_tile_ms(index);
+    }
+    return std::max(urgent_ms, saved_for_ms);
 }
 
 void ShellClient::choose_outer_quality(double budget_ms) {
@@ -362,7 +405,7 @@ void ShellClient::warm_up(const ShellMoment& moment) {
     learn_main_view(moment);
     set_ranges(distances_around(moment), moment);
     choose_outer_quality(budget_ms(moment));
-    plan_ = {1.0, true, source_.layers == 2};
+    plan_ = {1.0, source_.layers == 2};
     for (std::size_t item = 0; item < item_count(); ++item) (void)draw_item(item, moment);
 }
 
@@ -384,20 +427,25 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
     ShellFrameRecord record;
     record.now_s = moment.now_s;
     record.budget_ms = budget_ms(moment);
-    plan_view(moment, record.budget_ms);
-    std::vector<DrawCandidate> candidates;
-    std::vector<PredictedError> errors(item_count());
-    for (std::size_t i = 0; i < item_count(); ++i) {
-        const ItemOutlook item = outlook(i, moment);
-        errors[i] = predicted_error(item, settings_.weights);
-        const double cost_ms = expected_ms(i, moment);
-        record.all_ms += cost_ms;
-        // What nobody sees may wait.
-        const double waiting_s = item.visible_share > 0.0 ? item.age_s : 0.0;
-        candidates.push_back({i, errors[i].sum() * error_weight(item, settings_.weights), cost_ms, waiting_s});
-    }
     BudgetSettings budget{kEnoughOfTheBudget * record.budget_ms};
     budget.max_age_s = settings_.max_age_s;
+    plan_extent(moment);
+    std::vector<DrawCandidate> candidates(item_count());
+    std::vector<PredictedError> errors(item_count());
+    const auto judge = [&](std::size_t i) {
+        const ItemOutlook item = outlook(i, moment);
+        errors[i] = predicted_error(item, settings_.weights);
+        // What nobody sees may wait.
+        const double waiting_s = item.visible_share > 0.0 ? item.age_s : 0.0;
+        candidates[i] = {i, errors[i].sum() * error_weight(item, settings_.weights), expected_ms(i, moment), waiting_s};
+    };
+    for (std::size_t i = kView + 1; i < item_count(); ++i) judge(i);
+    saved_for_tiles_ms_ =
+        std::min(saved_for_tiles_ms_ + kSavedForTiles * record.budget_ms, kMostForTiles * record.budget_ms);
+    const double for_tiles_ms = needed_by_tiles_ms(std::span{candidates}.subspan(kView + 1), budget);
+    plan_view(moment, std::min(kMostForTheView * record.budget_ms, budget.budget_ms - for_tiles_ms));
+    judge(kView);
+    for (const DrawCandidate& candidate : candidates) record.all_ms += candidate.cost_ms;
     for (const DrawCandidate& candidate : candidates) {
         record.invalid += candidate.priority >= budget.least_error_px ? 1 : 0;
     }
@@ -408,6 +456,7 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
         const double age_s = items_[index].layer != nullptr ? moment.now_s - items_[index].drawn_s : 0.0;
         const double cost_ms = draw_item(index, moment);
         record.spent_ms += cost_ms;
+        if (index != kView) saved_for_tiles_ms_ = std::max(saved_for_tiles_ms_ - cost_ms, 0.0);
         record.draws.push_back({static_cast<std::uint32_t>(index), name_of(index), errors[index].reason(),
                                 candidates[index].priority, cost_ms, age_s});
     }
@@ -415,18 +464,11 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
     return layers();
 }
 
-// Tiles of the nearest shell stand in for the view past its edge; within it they would only be older. Of the others the
-// server leaves out what is not in view.
+// Tiles of the nearest shell stand in for the view past its edge, and where it sees nothing; drawn from elsewhere they
+// may show that whichever way they look. The server leaves out what is not in view.
 bool ShellClient::is_shown(std::size_t index) const {
     const Item& item = items_[index];
-    if (item.layer == nullptr) return false;
-    if (index == kView) return true;
-    if (item.statistics.filled_px == 0.0) return false;
-    if (shell_of(index) > 0) return true;
-    // Wherever the head may turn: predictions of a fast turn were seen to be off by more than 20 degrees.
-    const ShellTiles::Probes& probes = tiles_.probes(tile_of(index));
-    return std::any_of(probes.begin(), probes.end(),
-                       [&](const glm::dvec3& direction) { return !sees(items_[kView].layer->camera, direction); });
+    return item.layer != nullptr && (index == kView || item.statistics.filled_px > 0.0);
 }
 
 std::vector<std::shared_ptr<const Layer>> ShellClient::layers() const {

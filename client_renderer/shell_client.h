@@ -19,6 +19,7 @@
 #include "client_renderer/shell_settings.h"
 #include "client_renderer/shell_tiles.h"
 #include "client_renderer/source_camera.h"
+#include "client_renderer/view_extent.h"
 #include "client_renderer/view_plan.h"
 #include "core/clock.h"
 #include "frame_link/hole_feedback.h"
@@ -107,11 +108,15 @@ private:
     [[nodiscard]] Camera camera_of(std::size_t item, const ShellMoment& moment) const;
     [[nodiscard]] int samples_of(std::size_t item) const;
 
-    void plan_view(const ShellMoment& moment, double budget_ms);
+    [[nodiscard]] double near_in_view_m() const;
+    void plan_extent(const ShellMoment& moment);
+    void plan_view(const ShellMoment& moment, double most_ms);
+    [[nodiscard]] double needed_by_tiles_ms(std::span<const DrawCandidate> tiles, const BudgetSettings& budget) const;
     void choose_outer_quality(double budget_ms);
     [[nodiscard]] Camera view_camera(const ViewPlan& plan, const ShellMoment& moment) const;
     [[nodiscard]] double expected_view_ms(const ViewPlan& plan, const ShellMoment& moment) const;
     [[nodiscard]] double expected_ms(std::size_t item, const ShellMoment& moment) const;
+    [[nodiscard]] double expected_tile_ms(std::size_t item) const;
 
     void set_ranges(std::span<const double> distances_m, const ShellMoment& moment);
     void reconsider_ranges(const ShellMoment& moment);
@@ -143,8 +148,10 @@ private:
     glm::dvec3 ranges_from_{0.0};  ///< where the eye was when they were last thought over
     int outer_samples_ = 1;        ///< per axis
     bool outer_dense_ = true;      ///< whether outer tiles are those of outer_tiles_
-    ViewPlan plan_;                ///< of the view being drawn
+    ViewExtent extent_;            ///< of the view being drawn
+    ViewPlan plan_;                ///< of the same
     ViewCosts view_costs_;
+    double saved_for_tiles_ms_ = 0.0;
     std::vector<Item> items_;
     CostBook costs_;
     double main_view_triangles_ = 0.0;     ///< of one view of everything, at the start

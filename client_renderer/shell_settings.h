@@ -11,7 +11,7 @@ namespace lw {
 struct ShellSettings {
     bool on = false;
     int shells = 0;                   ///< --shells: 2 to 4, or 0 for auto
-    int samples_per_axis = 1;         ///< --shell-samples, of outer shells; the nearest has the source's
+    int samples_per_axis = 2;         ///< --shell-samples, of outer shells at most; the nearest has the source's
     double density = 1.5;             ///< --shell-density: tile pixels per display pixel at the centre, of outer shells
     int tiles_per_side = 4;           ///< of a cube face
     std::optional<double> budget_ms;  ///< --app-budget; nothing: what one main view with guard band costs

@@ -1,23 +1,30 @@
 #include "client_renderer/view_plan.h"
 
+#include <array>
+#include <cmath>
+#include <vector>
+
 #include "client_renderer/shell_budget.h"
 
 namespace lw {
 namespace {
 
-constexpr std::array<ViewPlan, 13> kPlans{{{2.0, true, true},
-                                           {2.0, false, true},
-                                           {1.75, true, true},
-                                           {1.75, false, true},
-                                           {1.5, true, true},
-                                           {1.5, false, true},
-                                           {1.5, false, false},
-                                           {1.25, false, true},
-                                           {1.25, false, false},
-                                           {1.1, false, false},
-                                           {1.0, false, true},
-                                           {1.0, true, false},
-                                           {1.0, false, false}}};
+// Densities in steps: the picture's size changes seldom, and 4 % of the budget are left at most.
+constexpr double kDensityStep = 1.0 / 16.0;
+// With a hidden layer where the picture stays as dense as this.
+constexpr double kDenseEnough = 1.5;
+constexpr std::array<double, 3> kLessAround{0.66, 0.33, 0.0};
+
+std::vector<ViewPlan> make_plans() {
+    std::vector<ViewPlan> plans;
+    const auto add = [&](double most, double least, bool hidden) {
+        for (int i = 0; most - i * kDensityStep >= least; ++i) plans.push_back({most - i * kDensityStep, hidden});
+    };
+    add(2.0, kDenseEnough, true);
+    add(2.0, 1.0, false);
+    for (const double share : kLessAround) plans.push_back({1.0, false, share});
+    return plans;
+}
 
 // Before a hidden layer was drawn: few of its pixels hold something.
 constexpr double kHiddenCovered = 0.2;
@@ -26,7 +33,10 @@ constexpr double kNewest = 0.4;
 
 }  // namespace
 
-std::span<const ViewPlan> view_plans() { return kPlans; }
+std::span<const ViewPlan> view_plans() {
+    static const std::vector<ViewPlan> plans = make_plans();
+    return plans;
+}
 
 void ViewCosts::start(double triangles, double covered) {
     triangles_ = triangles;

@@ -9,14 +9,15 @@
 namespace lw {
 
 struct ViewPlan {
-    double density = 1.0;  ///< times the source's density
-    bool guard_band = true;
-    bool hidden = true;
+    double density = 1.0;       ///< times the source's density
+    bool hidden = true;         ///< with a hidden layer
+    double extent_share = 1.0;  ///< of what is needed around the display (view_extent.h)
 };
 
-/// From best to cheapest. A denser picture comes before a guard band, because older tiles of the shell stand in past
-/// the view's edge while the display's own pixels show no more than what was drawn: of a walk through `city` density
-/// 1.5 takes a fifth of FLIP off, and 2 three tenths (`replay city --trace walk --source-density`).
+/// From best to cheapest. All that the eye is expected to see comes first: past the view's edge older tiles of the
+/// shell stand in. Then density: of a walk through `city` 1.5 takes a fifth of FLIP off, and 2 three tenths
+/// (`replay city --trace walk --source-density`); so what the view hides is left to older tiles where it would cost
+/// that.
 [[nodiscard]] std::span<const ViewPlan> view_plans();
 
 /// What plans will cost, from what the last view held. One thread.

@@ -173,8 +173,8 @@ TEST_F(ShellClientTest, WhatTheServerCouldNotExplainIsDrawn) {
 }
 
 TEST_F(ShellClientTest, RangesFollowWhatIsAroundAfterAWalkAndNotBefore) {
-    ShellClient shells = client();
     settings_.budget_ms = 1000.0;
+    ShellClient shells = client();
     (void)shells.draw(moment(0.0));
     const double cut_m = shells.ranges().front().farthest_m;
     // What the items hold says how far everything is; a cut moves only for more than a factor of 2.
@@ -201,6 +201,35 @@ TEST_F(ShellClientTest, ATurnThatWidensTheGuardBandKeepsTheBudget) {
         const ShellFrameRecord& record = shells.records()[frame];
         EXPECT_LE(record.spent_ms, record.budget_ms) << "frame " << frame;
     }
+}
+
+TEST_F(ShellClientTest, TheViewHoldsWhatTheHeadIsExpectedToTurnTo) {
+    settings_.budget_ms = 20.0;
+    ShellClient shells = client();
+    (void)shells.draw(moment(0.0));
+    ShellMoment at = moment(0.1, {0.01, 0.0, 0.0});
+    at.shown_until.orientation = glm::angleAxis(0.2, glm::dvec3{0.0, 1.0, 0.0});
+    const Camera view = shells.draw(at).front()->camera;
+    EXPECT_LE(view.fov.left, std::tan(std::atan(display_.fov.left) - 0.2) + 1e-6);
+    EXPECT_EQ(view.fov.right, display_.fov.right);
+}
+
+// Alone the view would be so dense that nothing else fits.
+TEST_F(ShellClientTest, AViewLeavesRoomForATileThatIsWorthMore) {
+    settings_.budget_ms = 3.0;
+    settings_.samples_per_axis = 1;
+    ShellClient shells = client();
+    (void)shells.draw(moment(0.0));
+    HoleFeedback feedback;
+    feedback.display_frames = 1;
+    feedback.add(1 + 24, 4000);
+    shells.take(feedback);
+    (void)shells.draw(moment(0.1, {0.05, 0.0, 0.0}));
+    std::set<std::string> drawn;
+    for (const ShellDraw& draw : shells.records().back().draws) drawn.insert(draw.name);
+    EXPECT_TRUE(drawn.contains("view"));
+    EXPECT_TRUE(drawn.contains("shell1-tile00"));
+    EXPECT_LE(shells.records().back().spent_ms, 3.0);
 }
 
 TEST_F(ShellClientTest, EqualCallsGiveEqualSchedules) {

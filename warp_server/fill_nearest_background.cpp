@@ -46,6 +46,10 @@ private:
         const std::span<Rgba8> colours_to = frame.colour.row(run.y).subspan(static_cast<std::size_t>(run.begin));
         const std::span<float> depths_to = frame.depth.row(run.y).subspan(static_cast<std::size_t>(run.begin));
         for (std::size_t i = 0; i < chosen.size(); ++i) {
+            // In a long run it lies above or below, in another row for every pixel.
+            const auto next = static_cast<std::size_t>(std::max(chosen[std::min(i + kAhead, chosen.size() - 1)], 0));
+            __builtin_prefetch(depths.data() + next);
+            __builtin_prefetch(colours.data() + next);
             const std::int32_t from = chosen[i];
             colours_to[i] = from < 0 ? kNothingColour : colours[static_cast<std::size_t>(from)];
             depths_to[i] = from < 0 ? 0.0F : depths[static_cast<std::size_t>(from)];

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstring>
 #include <functional>
+#include <glm/gtc/quaternion.hpp>
 #include <string>
 
 #include "bench/run_benchmarks.h"
@@ -114,6 +115,23 @@ void warp(benchmark::State& state, const std::string& specification) {
     state.counters["hole_fraction"] = hole_fraction(frames[0]);
 }
 
+void warp_turned(benchmark::State& state, const std::string& specification, double degrees) {
+    const auto method = checked_method(specification);
+    std::vector<Layer> prepared;
+    for (std::size_t i = 0; i < kFrames; ++i) {
+        prepared.push_back(half_covered_layer(kSize_px, kMovers));
+        if (auto ready = method->prepare(prepared[i]))
+            prepared[i].prepared.emplace_back(specification, std::move(ready));
+    }
+    Camera camera = prepared[0].camera;
+    camera.world_from_eye.orientation =
+        glm::angleAxis(glm::radians(degrees), glm::dvec3{0.0, 1.0, 0.0}) * camera.world_from_eye.orientation;
+    const std::vector<ObjectTransform> movers = moved_objects(prepared[0]);
+    DisplayFrame frames[2];
+    measure(state, [&](std::size_t i) { method->warp(prepared[i], {camera, movers}, frames[i % 2]); });
+    state.counters["hole_fraction"] = hole_fraction(frames[0]);
+}
+
 void prepare(benchmark::State& state, const std::string& specification) {
     const auto method = checked_method(specification);
     measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(method->prepare(layers()[i])); });
@@ -185,6 +203,12 @@ void register_all() {
         if (entry.settings.find("threads") == std::string_view::npos) continue;
         add("warp/" + name + ":threads=2", [name](benchmark::State& state) { warp(state, name + ":threads=2"); });
         add("two_threads_over_one/" + name, [name](benchmark::State& state) { two_threads(state, name); });
+    }
+    for (const std::string name : {"splat", "splat:threads=2", "surface", "surface:threads=2"}) {
+        for (const int degrees : {0, 5, 10, 20, 30}) {
+            add("turned/" + name + "/degrees=" + std::to_string(degrees),
+                [name, degrees](benchmark::State& state) { warp_turned(state, name, degrees); });
+        }
     }
     add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });
     for (const std::string name : {"nearest-background", "pyramid"}) {

@@ -1,7 +1,10 @@
 #include "warp_server/methods/surface_cells.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+
+#include "warp_server/methods/surface_classify.h"
 
 namespace lw {
 namespace {
@@ -76,6 +79,15 @@ bool mean_step(std::uint8_t corners, const std::array<float, 4>& depth, std::siz
     return true;
 }
 
+// The plane nearest to all four corners.
+CellSurface surface_through(const std::array<float, 4>& depth, ObjectId object_id) {
+    const float gradient_x = 0.5F * ((depth[1] - depth[0]) + (depth[3] - depth[2]));
+    const float gradient_y = 0.5F * ((depth[2] - depth[0]) + (depth[3] - depth[1]));
+    const float sum =
+        depth[0] + (depth[1] - gradient_x) + (depth[2] - gradient_y) + (depth[3] - gradient_x - gradient_y);
+    return {object_id, 0.25F * sum, gradient_x, gradient_y};
+}
+
 }  // namespace
 
 const CornerGroups& corner_groups(std::uint8_t links) {
@@ -92,12 +104,16 @@ bool cell_surface(const SurfaceLinks& links, int x, int y, std::uint8_t corners,
     const int x1 = std::min(x + 1, links.size_px().x - 1);
     const int y1 = std::min(y + 1, links.size_px().y - 1);
     const std::array<glm::ivec2, 4> at{glm::ivec2{x, y}, {x1, y}, {x, y1}, {x1, y1}};
-    std::array<float, 4> depth{};
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-        if (!holds(corners, corner)) continue;
-        surface.object_id = pixels.object_id.at(at[corner].x, at[corner].y);
-        depth[corner] = links.depth_of(surface.object_id, at[corner].x, at[corner].y);
-        if (depth[corner] < 0.0F) return false;
+    const glm::ivec2 first = at[static_cast<std::size_t>(std::countr_zero(corners))];
+    surface.object_id = pixels.object_id.at(first.x, first.y);
+    // What is linked is of one object and usable.
+    const bool alone = std::has_single_bit(corners);
+    if (alone && !is_usable_depth(pixels.depth.at(first.x, first.y))) return false;
+    const std::array<float, 4> depth{pixels.depth.at(x, y), pixels.depth.at(x1, y), pixels.depth.at(x, y1),
+                                     pixels.depth.at(x1, y1)};
+    if (corners == kAllCorners) {
+        surface = surface_through(depth, surface.object_id);
+        return true;
     }
     const bool has_x = mean_step(corners, depth, 0, 1, 2, 3, surface.gradient_x);
     const bool has_y = mean_step(corners, depth, 0, 2, 1, 3, surface.gradient_y);

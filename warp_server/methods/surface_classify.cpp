@@ -175,6 +175,9 @@ private:
     [[nodiscard]] bool is_plane(int x, int y, int size, const BlockPlane& plane) const {
         const int columns = std::min(size, size_px_.x - 1 - x) + 1;
         const int rows = std::min(size, size_px_.y - 1 - y) + 1;
+        // It goes through three corners: where it is none, the fourth most often says so.
+        const float last = links_->depth_of(plane.id, x + columns - 1, y + rows - 1);
+        if (!depths_agree(last, plane.at(columns - 1, rows - 1))) return false;
         return block_is_plane(links_->pixels(),
                               {x, y, columns, rows, plane.id, plane.depth, plane.gradient_x, plane.gradient_y});
     }

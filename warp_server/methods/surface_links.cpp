@@ -197,17 +197,17 @@ SurfaceLinks::SurfaceLinks(const CpuPixels& pixels) : pixels_{&pixels} {
     HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_);
 }
 
-float SurfaceLinks::depth_of(ObjectId id, int x, int y) const {
-    const int at_x = std::clamp(x, 0, size_px().x - 1);
-    const int at_y = std::clamp(y, 0, size_px().y - 1);
-    const float depth = pixels_->depth.at(at_x, at_y);
-    return pixels_->object_id.at(at_x, at_y) == id && is_usable_depth(depth) ? depth : -1.0F;
-}
-
 bool SurfaceLinks::diagonal(int x, int y, int step_x) const {
-    const ObjectId id = pixels_->object_id.at(std::clamp(x, 0, size_px().x - 1), std::clamp(y, 0, size_px().y - 1));
-    return on_one_surface(depth_of(id, x - step_x, y - 1), depth_of(id, x, y), depth_of(id, x + step_x, y + 1),
-                          depth_of(id, x + 2 * step_x, y + 2));
+    const auto inside = [&](int at_x, int at_y) {
+        return glm::clamp(glm::ivec2{at_x, at_y}, glm::ivec2{0}, size_px() - 1);
+    };
+    const glm::ivec2 own = inside(x, y);
+    const ObjectId id = pixels_->object_id.at(own.x, own.y);
+    const auto depth_along = [&](int steps) {
+        const glm::ivec2 at = inside(x + steps * step_x, y + steps);
+        return depth_of(id, at.x, at.y);
+    };
+    return on_one_surface(depth_along(-1), depth_along(0), depth_along(1), depth_along(2));
 }
 
 std::uint8_t SurfaceLinks::all_links(int x, int y) const {

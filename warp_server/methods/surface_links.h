@@ -6,6 +6,7 @@
 #include "core/image.h"
 #include "core/object_transform.h"
 #include "frame_link/rendered_frame.h"
+#include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_tolerances.h"
 
 namespace lw {
@@ -45,8 +46,12 @@ public:
     /// Sides and diagonals.
     [[nodiscard]] std::uint8_t all_links(int x, int y) const;
 
-    /// Depth for a surface of object `id`, negative where the pixel is of another object or its depth is unusable.
-    [[nodiscard]] float depth_of(ObjectId id, int x, int y) const;
+    /// Depth for a surface of object `id`, negative where the pixel, which lies in the image, is of another object or
+    /// its depth is unusable.
+    [[nodiscard]] float depth_of(ObjectId id, int x, int y) const {
+        const float depth = pixels_->depth.at(x, y);
+        return pixels_->object_id.at(x, y) == id && is_usable_depth(depth) ? depth : -1.0F;
+    }
 
 private:
     [[nodiscard]] bool diagonal(int x, int y, int step_x) const;

@@ -260,7 +260,9 @@ Rows figure_rows(const BillboardFigures& f) {
             {"the same by processor time", short_number(f.speedup_min_eligible_processor)},
             {"SSIM, mean", fmt::format("{:.4f}", f.ssim_mean)},
             {"SSIM, worst", fmt::format("{:.4f}", f.ssim_min)},
-            {"frames in which warped beats flat", fmt::format("{:.1f} %", 100.0 * f.warped_better)},
+            {"frames with warped as good as flat or better", fmt::format("{:.1f} %", 100.0 * f.warped_better)},
+            {"of them equal", fmt::format("{:.1f} %", 100.0 * f.warped_equal)},
+            {"SSIM lost in the others, at most", fmt::format("{:.6f}", f.warped_loss)},
             {"redraws, warped to flat at equal FLIP", short_number(f.redraw_ratio)},
             {"the same on a walk to the side", short_number(f.redraw_ratio_beside)},
             {"flicker of updates, with fade to without", short_number(f.flicker_ratio)},
@@ -444,6 +446,8 @@ BillboardFigures figures_of(const BillboardBench& bench) {
         figures.ssim_mean += quality.ssim_ours / count;
         figures.ssim_min = std::min(figures.ssim_min, quality.ssim_ours);
         if (quality.ssim_warped >= quality.ssim_flat) figures.warped_better += 1.0 / count;
+        if (quality.ssim_warped == quality.ssim_flat) figures.warped_equal += 1.0 / count;
+        figures.warped_loss = std::max(figures.warped_loss, quality.ssim_flat - quality.ssim_warped);
     }
     figures.redraw_ratio = share_at_default_cap(bench.caps);
     figures.redraw_ratio_beside = share_at_default_cap(bench.beside);
@@ -469,6 +473,8 @@ BenchOutput output_of(const BillboardBench& bench, const scene::Scene& scene) {
     report.set("billboards/ssim_mean", figures.ssim_mean);
     report.set("billboards/ssim_min", figures.ssim_min);
     report.set("billboards/warped_better", figures.warped_better);
+    report.set("billboards/warped_equal", figures.warped_equal);
+    report.set("billboards/warped_loss", figures.warped_loss);
     report.set("billboards/redraw_ratio", figures.redraw_ratio);
     report.set("billboards/redraw_ratio_beside", figures.redraw_ratio_beside);
     report.set("billboards/flicker_ratio", figures.flicker_ratio);

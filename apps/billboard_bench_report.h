@@ -21,7 +21,12 @@ struct BillboardFigures {
     std::size_t eligible = 0;
     double ssim_mean = 1.0;
     double ssim_min = 1.0;
-    double warped_better = 0.0;        ///< share of the frames in which warped quads beat flat ones, updated as often
+    /// Share of the frames in which warped quads are as near to the meshes as flat ones, updated as often, or nearer;
+    /// the share in which both pictures are equally near, which nearly always means equal; and how much SSIM is lost
+    /// where they are not as near.
+    double warped_better = 0.0;
+    double warped_equal = 0.0;
+    double warped_loss = 0.0;
     double redraw_ratio = 0.0;         ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
     double redraw_ratio_beside = 0.0;  ///< the same on the walk to the side
     double flicker_ratio = 0.0;        ///< what updates change in a frame, with cross-fade to without, warped

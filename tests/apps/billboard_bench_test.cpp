@@ -56,7 +56,7 @@ TEST(BillboardBench, FiguresCountOnlyEligibleFrames) {
     bench.path.meshes = {frame_of(100, 0, 0), frame_of(100, 0, 0), frame_of(100, 0, 0), frame_of(100, 0, 0)};
     bench.path.trials = {
         {"ours", {frame_of(10, 3, 100), frame_of(25, 64, 80), frame_of(90, 65, 100), frame_of(95, 0, 79)}}};
-    bench.path.quality = {{0.0, 0.9, 0.95, 0.98}, {1.0, 0.96, 0.95, 0.94}};
+    bench.path.quality = {{0.0, 0.9, 0.95, 0.98}, {1.0, 0.96, 0.95, 0.94}, {2.0, 0.97, 0.97, 0.96}, {3.0, 1, 1, 0.96}};
     bench.overview.meshes = {frame_of(100, 0, 0), frame_of(100, 0, 0)};
     bench.overview.ours = {frame_of(5, 0, 100), frame_of(8, 100, 100)};
     const BillboardFigures figures = figures_of(bench);
@@ -66,7 +66,9 @@ TEST(BillboardBench, FiguresCountOnlyEligibleFrames) {
     EXPECT_DOUBLE_EQ(figures.speedup_best_100, 12.5) << "fewer than 100 frames: the least of all";
     EXPECT_NEAR(figures.ssim_mean, 0.96, 1e-12);
     EXPECT_DOUBLE_EQ(figures.ssim_min, 0.94);
-    EXPECT_DOUBLE_EQ(figures.warped_better, 0.5);
+    EXPECT_DOUBLE_EQ(figures.warped_better, 0.75);
+    EXPECT_DOUBLE_EQ(figures.warped_equal, 0.5);
+    EXPECT_NEAR(figures.warped_loss, 0.01, 1e-12);
 }
 
 ColourImage grey(int level) {

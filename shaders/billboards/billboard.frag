@@ -63,10 +63,10 @@ Candidate candidate_at(float q) {
     return Candidate(texel, empty ? 0.0 : inverse_drawn * a.z / (1.0 - inverse_drawn * b.z));
 }
 
-// Whether the ray is within the candidate's texel where it meets the texel's surface.
+// Whether the ray is within the candidate's texel where it meets the texel's surface. There is one.
 bool meets_its_texel(Candidate candidate) {
     vec3 s = v_texel_from_ray + candidate.q * v_relief.xyz;
-    return candidate.q > 0.0 && ivec2(v_slot.xy + floor(s.xy / s.z)) == candidate.texel;
+    return ivec2(v_slot.xy + floor(s.xy / s.z)) == candidate.texel;
 }
 #endif
 
@@ -97,8 +97,9 @@ void main() {
         float q_try = v_range.x + (float(i) + 0.5) * q_step;
         Candidate near_by = candidate_at(q_try);
         Candidate found = candidate_at(near_by.q);
-        // Where depth moves nothing by more than a texel, no pixel is lost to it: an outline would lose more than it gains.
-        if (steps == 1 && !meets_its_texel(found)) found = near_by;
+        // Where depth moves nothing by more than a texel, the texel at mid depth is right but where the ray is in the
+        // other one at its surface. What is empty there stays empty: outlines must not grow.
+        if (steps == 1 && found.q > 0.0 && !meets_its_texel(found)) found = near_by;
         bool hit = near_by.q > 0.0 && found.q > 0.0 && abs(near_by.q - q_try) <= tolerance &&
                    abs(found.q - near_by.q) <= tolerance;
         if (hit && q == 0.0) {

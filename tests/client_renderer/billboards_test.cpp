@@ -54,6 +54,13 @@ protected:
     }
 };
 
+int most_off(const Rgba8& a, const glm::vec3& b) {
+    const glm::vec3 off = glm::abs(glm::vec3{a.r, a.g, a.b} - b);
+    return static_cast<int>(std::ceil(std::max({off.r, off.g, off.b})));
+}
+
+glm::vec3 levels(const Rgba8& a) { return {a.r, a.g, a.b}; }
+
 Camera moved(Camera camera, const glm::dvec3& step_m, double turn_rad = 0.0) {
     camera.world_from_eye.position_m += step_m;
     camera.world_from_eye.orientation =
@@ -165,31 +172,29 @@ TEST_F(GlBillboards, WarpedOnesDoNotGrow) {
     EXPECT_LT(too_many, 0.6 * missing);
 }
 
-// A step that moves nothing by a texel more than the rest of its object: depth decides which of two texels shows, not
-// whether one does. Seen: none lost; with a search that gives up where the second texel is empty, 8 of 1,309 pixels.
-TEST_F(GlBillboards, WarpedOnesLoseNothingToDepthThatMovesNothing) {
+// Steps that move nothing by more than about a texel against the rest of its object. Seen, in thousands: 723 and 677,
+// 1,037 and 981, 1,388 and 956.
+TEST_F(GlBillboards, WarpedOnesAreNearerThanFlatOnesAfterASmallStep) {
     const scene::Scene scene = few_chairs(13);  // as movers, since their ids tell them from the floor
     const Camera camera = outside(scene);
-    const Camera later = moved(camera, {0.08, 0.0, 0.0});
-    BillboardSettings settings = with_mode(BillboardMode::warped);
-    settings.error_cap_px = 1000.0;
-    auto renderer = make(scene, settings);
-    (void)draw(*renderer, camera);
-    const CpuPixels shown = draw(*renderer, later);
-    const CpuPixels meshes = draw_meshes(*renderer, later);
-    settings.mode = BillboardMode::flat;
-    auto flat = make(scene, settings);
-    (void)draw(*flat, camera);
-    const CpuPixels shown_flat = draw(*flat, later);
-    int lost = 0;
-    int of_objects = 0;
-    for (std::size_t i = 0; i < shown.object_id.pixels().size(); ++i) {
-        const bool in_all = meshes.object_id.pixels()[i] != 0 && shown_flat.object_id.pixels()[i] != 0;
-        if (in_all) ++of_objects;
-        if (in_all && shown.object_id.pixels()[i] == 0) ++lost;
+    for (const double step_m : {0.08, 0.15, 0.3}) {
+        const Camera later = moved(camera, {step_m, 0.0, 0.0});
+        double squares[2] = {};
+        for (const BillboardMode mode : {BillboardMode::flat, BillboardMode::warped}) {
+            BillboardSettings settings = with_mode(mode);
+            settings.error_cap_px = 1000.0;
+            auto renderer = make(scene, settings);
+            (void)draw(*renderer, camera);
+            const CpuPixels shown = draw(*renderer, later);
+            const CpuPixels meshes = draw_meshes(*renderer, later);
+            for (std::size_t i = 0; i < shown.object_id.pixels().size(); ++i) {
+                if (meshes.object_id.pixels()[i] == 0 || shown.object_id.pixels()[i] == 0) continue;
+                const glm::vec3 off = levels(shown.colour.pixels()[i]) - levels(meshes.colour.pixels()[i]);
+                squares[mode == BillboardMode::warped ? 1 : 0] += glm::dot(off, off);
+            }
+        }
+        EXPECT_LT(squares[1], squares[0]) << step_m << " m";
     }
-    EXPECT_GT(of_objects, 1000);
-    EXPECT_LE(lost, 2) << "of " << of_objects;
 }
 
 TEST_F(GlBillboards, KeepTheIdsOfMovers) {
@@ -361,13 +366,6 @@ TEST_F(GlBillboards, AFadeEndsInTheNewVersion) {
     EXPECT_GT(ssim(draw(*renderer, later).colour, draw(*other, later).colour), 0.999) << "nothing old is left";
     EXPECT_EQ(likeness[4], likeness[5]);
 }
-
-int most_off(const Rgba8& a, const glm::vec3& b) {
-    const glm::vec3 off = glm::abs(glm::vec3{a.r, a.g, a.b} - b);
-    return static_cast<int>(std::ceil(std::max({off.r, off.g, off.b})));
-}
-
-glm::vec3 levels(const Rgba8& a) { return {a.r, a.g, a.b}; }
 
 /// Low enough for some of the objects to stand before the sky.
 Camera before_the_sky(const scene::Scene& scene) {

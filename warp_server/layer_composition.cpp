@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/check.h"
+#include "warp_server/held_depths.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/surface_kernels.h"
 #include "warp_server/stepped_warp.h"
@@ -14,9 +15,6 @@ namespace {
 // Two pictures of one surface, taken from different places, differ in depth by what a pixel covers. Things that lie
 // closer together than this hardly shift against each other.
 constexpr float kSameSurface = 0.005F;
-
-// Above every depth: the pixel stays as it is.
-constexpr float kHeldDepth = 2.0F;
 
 // Of the target's pixels: fewer are left to the fill rather than to an old tile, which costs as many patches as it has.
 constexpr double kWorthATile = 0.002;
@@ -66,19 +64,19 @@ WarpCounters without_empty(WarpCounters counters, const Layer& layer) {
 }
 
 // Pixels of the tile's reach that show nothing, or something behind it where the view does not look.
-std::size_t missing_for(const StackedLayer& tile, const ViewCover& cover, const DisplayFrame& into) {
+std::size_t missing_for(const StackedLayer& tile, std::span<const ViewedRow> rows, const DepthImage& shown) {
     std::size_t missing = 0;
     const PixelRect& reach = tile.reach;
     for (int y = reach.first_px.y; y < reach.end_px.y; ++y) {
-        const float* depths = into.depth.row(y).data();
-        const auto [covered_from, covered_until] = cover.columns(y, into.depth.width());
-        const int first = std::clamp(covered_from, reach.first_px.x, reach.end_px.x);
-        const int end = std::clamp(covered_until, first, reach.end_px.x);
+        const ViewedRow& viewed = rows[static_cast<std::size_t>(y)];
+        const float* depths = shown.row(y).data();
+        const int first = std::clamp(viewed.first, reach.first_px.x, reach.end_px.x);
+        const int end = std::clamp(viewed.end, first, reach.end_px.x);
         const auto count = [&](int from, int until, float depth) {
-            return count_below(depths + from, static_cast<std::size_t>(until - from), depth);
+            return from < until ? count_below(depths + from, static_cast<std::size_t>(until - from), depth) : 0;
         };
-        missing += count(first, end, 0.0F) + count(reach.first_px.x, first, tile.nearest_depth) +
-                   count(end, reach.end_px.x, tile.nearest_depth);
+        if (viewed.holes > 0) missing += count(first, end, 0.0F);
+        missing += count(reach.first_px.x, first, tile.nearest_depth) + count(end, reach.end_px.x, tile.nearest_depth);
     }
     return missing;
 }
@@ -186,40 +184,48 @@ bool LayerComposition::begin_beside_view(const Layer& view, const WarpTarget& ta
     for (const StackedLayer& layer : stack_) {
         if (layer.layer->content.shell > 0) farthest_near = std::max(farthest_near, layer.nearest_depth);
     }
-    stack_beside_view(view, beside_view_, target, into);
+    stack_.clear();
+    const auto worth_it = static_cast<std::size_t>(std::max(kWorthATile * pixel_count(target.camera), 1.0));
+    if (look_where_view_looks(view, target.camera, into.depth) < worth_it) return false;
+    for (const Layer* tile : beside_view_) {
+        const StackedLayer placed = stacked(*tile, view, target.camera);
+        if (missing_for(placed, viewed_rows_, into.depth) >= worth_it) stack_.push_back(placed);
+    }
     if (stack_.empty()) return false;
-    hold_what_the_view_shows(view, target, farthest_near, into);
+    hold_what_the_view_shows(farthest_near, into);
     return true;
 }
 
-void LayerComposition::finish_beside_view(DisplayFrame& into) const {
-    const std::span<float> depths = into.depth.pixels();
-    const std::span<const float> shown = shown_depth_.pixels();
-    for (std::size_t i = 0; i < depths.size(); ++i) depths[i] = depths[i] > 1.0F ? shown[i] : depths[i];
+// How many pixels tiles may be wanted for: those that show nothing, and all where the view does not look.
+std::size_t LayerComposition::look_where_view_looks(const Layer& view, const Camera& target, const DepthImage& shown) {
+    const ViewCover cover = cover_of(view, target);
+    const int width = shown.width();
+    viewed_rows_.resize(static_cast<std::size_t>(shown.height()));
+    std::size_t open = 0;
+    for (int y = 0; y < shown.height(); ++y) {
+        const auto [first, end] = cover.columns(y, width);
+        const auto columns = static_cast<std::size_t>(end - first);
+        const std::size_t holes = count_below(shown.row(y).data() + first, columns, 0.0F);
+        viewed_rows_[static_cast<std::size_t>(y)] = {first, end, holes};
+        open += holes + static_cast<std::size_t>(width) - columns;
+    }
+    return open;
 }
 
-void LayerComposition::hold_what_the_view_shows(const Layer& view, const WarpTarget& target, float farthest,
-                                                DisplayFrame& into) {
+void LayerComposition::hold_what_the_view_shows(float farthest, DisplayFrame& into) {
     shown_depth_ = into.depth;
-    const ViewCover cover = cover_of(view, target.camera);
     for (int y = 0; y < into.depth.height(); ++y) {
-        const std::span<float> row = into.depth.row(y);
-        const auto [first, end] = cover.columns(y, into.depth.width());
-        for (float& depth : row.subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(end - first))) {
-            depth = depth < farthest ? depth : kHeldDepth;
-        }
+        const ViewedRow& viewed = viewed_rows_[static_cast<std::size_t>(y)];
+        hold_depths(into.depth.row(y).data() + viewed.first, static_cast<std::size_t>(viewed.end - viewed.first),
+                    farthest);
     }
 }
 
-// Tiles with something to show.
-void LayerComposition::stack_beside_view(const Layer& view, std::span<const Layer* const> tiles,
-                                         const WarpTarget& target, const DisplayFrame& into) {
-    const ViewCover cover = cover_of(view, target.camera);
-    stack_.clear();
-    for (const Layer* tile : tiles) {
-        const StackedLayer placed = stacked(*tile, view, target.camera);
-        const auto missing = static_cast<double>(missing_for(placed, cover, into));
-        if (missing >= std::max(kWorthATile * pixel_count(target.camera), 1.0)) stack_.push_back(placed);
+void LayerComposition::finish_beside_view(DisplayFrame& into) const {
+    for (int y = 0; y < into.depth.height(); ++y) {
+        const ViewedRow& viewed = viewed_rows_[static_cast<std::size_t>(y)];
+        release_depths(into.depth.row(y).data() + viewed.first, shown_depth_.row(y).data() + viewed.first,
+                       static_cast<std::size_t>(viewed.end - viewed.first));
     }
 }
 

@@ -8,6 +8,13 @@
 
 namespace lw {
 
+/// What the view covers of a row of the target: the columns [first, end), of which so many show nothing.
+struct ViewedRow {
+    int first = 0;
+    int end = 0;
+    std::size_t holes = 0;
+};
+
 /// Keeps scratch memory. Server thread.
 class LayerComposition {
 public:
@@ -50,9 +57,8 @@ private:
     WarpCounters warp_into_scratch(WarpMethod& method, const Layer& layer, const WarpTarget& target);
     void show_stack(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
                     DisplayFrame& into, WarpCounters& counters);
-    void stack_beside_view(const Layer& view, std::span<const Layer* const> tiles, const WarpTarget& target,
-                           const DisplayFrame& into);
-    void hold_what_the_view_shows(const Layer& view, const WarpTarget& target, float farthest, DisplayFrame& into);
+    [[nodiscard]] std::size_t look_where_view_looks(const Layer& view, const Camera& target, const DepthImage& shown);
+    void hold_what_the_view_shows(float farthest, DisplayFrame& into);
 
     // The picture that is drawn in steps.
     struct Steps {
@@ -74,6 +80,7 @@ private:
     DisplayFrame scratch_;
     std::vector<StackedLayer> stack_;
     std::vector<const Layer*> beside_view_;
+    std::vector<ViewedRow> viewed_rows_;
     DepthImage shown_depth_;  ///< of a picture whose pixels are held
     bool false_colours_ = false;
 };

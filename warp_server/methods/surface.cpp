@@ -24,6 +24,10 @@ struct PaintedLayer {
     float nearest_depth = 1.0F;
 };
 
+PixelRect common(const PixelRect& a, const PixelRect& b) {
+    return {glm::max(a.first_px, b.first_px), glm::min(a.end_px, b.end_px)};
+}
+
 // Draws one band of rows of the target; one per thread.
 class BandPainter {
 public:
@@ -44,8 +48,9 @@ public:
         const PaintedLayer& layer = layers_[next_layer_];
         if (next_region_ > 0 || is_empty_ || may_show(layer)) {
             const PreparedSurface& prepared = *layer.input.prepared;
-            draw_region(layer.input, next_region_ == 0 ? SurfaceRegion{} : prepared.regions[next_region_ - 1],
-                        prepared.regions[next_region_]);
+            const SurfaceRegion begin = next_region_ == 0 ? SurfaceRegion{} : prepared.regions[next_region_ - 1];
+            const SurfaceRegion& end = prepared.regions[next_region_];
+            if (may_show(layer, prepared.bounds[next_region_], begin, end)) draw_region(layer.input, begin, end);
             if (++next_region_ < prepared.regions.size()) return true;
             if (layers_.size() > 1) canvas_.finish_layer();
             is_empty_ = false;
@@ -69,6 +74,28 @@ private:
             const float* depths = canvas_.frame().depth.row(y).data() + layer.reach.first_px.x;
             if (count_below(depths, columns, layer.nearest_depth) > 0) return true;
         }
+        return false;
+    }
+
+    // Does any of a region lie in the picture, and before what is there? Counts its pieces where not.
+    [[nodiscard]] bool may_show(const PaintedLayer& layer, const RegionBounds& bounds, const SurfaceRegion& begin,
+                                const SurfaceRegion& end) {
+        if (bounds.empty) return false;
+        const PixelMatrix* matrix = layer.input.matrices->find(0);
+        const std::optional<RegionReach> reach = matrix != nullptr ? reach_of(bounds, *matrix) : std::nullopt;
+        if (!reach) return true;
+        const PixelRect rect = common(reach->rect, layer.reach);
+        const std::uint64_t pieces =
+            end.blocks - begin.blocks + end.patches - begin.patches + end.tiles - begin.tiles + end.edges - begin.edges;
+        if (rect.empty()) {
+            if (canvas_.band().begin == 0) canvas_.skips().outside += pieces;
+            return false;
+        }
+        const RowRange band = canvas_.band();
+        const PixelRect here = common(rect, {{rect.first_px.x, band.begin}, {rect.end_px.x, band.end}});
+        if (here.empty()) return false;
+        if (is_empty_ || !all_nearer(canvas_.frame().depth, here, reach->nearest_depth)) return true;
+        canvas_.skips().hidden += pieces;
         return false;
     }
 

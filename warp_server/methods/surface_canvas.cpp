@@ -27,6 +27,7 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band, StackBase base) {
         std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
     }
     fragment_count_ = 0;
+    waiting_.clear();
     partly_covered_.clear();
     skips_ = {};
     newest_.fill(-1);
@@ -48,6 +49,10 @@ void SurfaceCanvas::composite_fragments_so_far(Uncovered uncovered) {
 }
 
 void SurfaceCanvas::finish() {
+    reserve_fragments(waiting_.size());
+    std::copy(waiting_.begin(), waiting_.end(), fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_));
+    fragment_count_ += waiting_.size();
+    waiting_.clear();
     composite_fragments_so_far(Uncovered::drop);
     mark_coverage(frame_->depth.pixels().data() + first_index_, pixel_count(),
                   frame_->coverage.pixels().data() + first_index_);
@@ -101,7 +106,7 @@ void SurfaceCanvas::composite_stretch(std::size_t stretch, Uncovered uncovered) 
     }
 }
 
-// Takes pixels out of the stretch from pixel `first` on of which too little is covered; their fragments stay.
+// Takes pixels out of the stretch from pixel `first` on of which too little is covered; their fragments wait.
 void SurfaceCanvas::put_off_uncovered(std::size_t first) {
     std::erase_if(touched_, [&](std::uint32_t pixel) {
         if (frame_->depth.pixels()[first + pixel] >= 0.0F) return false;
@@ -111,7 +116,7 @@ void SurfaceCanvas::put_off_uncovered(std::size_t first) {
         }
         if (covered >= kCoveredEnough) return false;
         for (std::int32_t i = newest_[pixel]; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
-            fragments_[fragment_count_++] = sorted_[static_cast<std::size_t>(i)];
+            waiting_.push_back(sorted_[static_cast<std::size_t>(i)]);
         }
         newest_[pixel] = -1;
         return true;

@@ -49,7 +49,7 @@ public:
 
     /// One layer of several is drawn. Its fragments in one pixel are parts of one place, so they are put together now:
     /// what other layers have behind must not shine through between them (of a walk through `city` that cost 2 % of
-    /// FLIP). Where they cover less than half, with nothing opaque behind, they wait for the next layers.
+    /// FLIP). Where they cover less than half, with nothing opaque behind, they wait for what all layers have.
     void finish_layer() { composite_fragments_so_far(Uncovered::wait); }
 
     /// Puts fragments over what is opaque and marks coverage. A pixel of which less than half is covered is a hole.
@@ -84,6 +84,7 @@ private:
     std::size_t first_index_ = 0;             // of the band's first pixel
     std::vector<SurfaceFragment> fragments_;  // as they came: the first fragment_count_ of them
     std::size_t fragment_count_ = 0;
+    std::vector<SurfaceFragment> waiting_;         // put off until finish()
     std::vector<SurfaceFragment> sorted_;          // by stretches, in the order they came within each
     std::vector<std::uint32_t> stretch_begin_;     // of each stretch its first in sorted_, and one more
     std::array<std::int32_t, kStretch> newest_{};  // of each pixel of a stretch: its newest fragment, or -1

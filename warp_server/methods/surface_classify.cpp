@@ -283,6 +283,7 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
         if (prepared->linear.has_alpha()) halve_lacks_of_thin_things(links, prepared->linear);
     }
     prepared->id_counts = count_ids(pixels);
+    prepared->bounds = bounds_of_regions(*prepared);
     prepared->cost_until = accumulated_costs(*prepared);
     return prepared;
 }

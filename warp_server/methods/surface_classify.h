@@ -10,6 +10,7 @@
 #include "frame_link/rendered_frame.h"
 #include "warp_server/methods/id_counts.h"
 #include "warp_server/methods/linear_colour.h"
+#include "warp_server/methods/surface_bounds.h"
 
 namespace lw {
 
@@ -67,6 +68,7 @@ struct PreparedSurface final : PreparedLayer {
     SurfaceTiles tiles;  ///< edges between planes, and what lies around them
     PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
     std::vector<SurfaceRegion> regions;  ///< in the order of the lists: each begins where the one before ends
+    std::vector<RegionBounds> bounds;    ///< of each
     LinearImage linear;                  ///< with the pixels' shares as alpha, where they are known
     std::vector<IdCount> id_counts;      ///< by ascending id
     std::vector<float> cost_until;       ///< estimated cost of drawing all patches before each source row, and of all

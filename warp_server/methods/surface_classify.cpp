@@ -273,9 +273,23 @@ std::vector<float> accumulated_costs(const PreparedSurface& prepared) {
 
 void PatchList::clear() { *this = {}; }
 
+void PatchList::reserve(std::size_t count) {
+    for (std::vector<float>* values : {&x, &y, &depth, &gradient_x, &gradient_y, &left, &right, &top, &bottom}) {
+        values->reserve(count);
+    }
+    object_id.reserve(count);
+    corners.reserve(count);
+}
+
 std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, SurfaceUse use) {
     auto prepared = std::make_shared<PreparedSurface>();
     prepared->size_px = pixels.depth.size_px();
+    // Enough for most pictures; memory that is not written to costs nothing.
+    const std::size_t pixel_count = pixels.depth.pixels().size();
+    prepared->patches.reserve(pixel_count / 8);
+    prepared->edges.reserve(pixel_count / 16);
+    prepared->tiles.surfaces.reserve(pixel_count / 32);
+    prepared->tiles.cells.reserve(pixel_count / 32 * static_cast<std::size_t>(kTileSize));
     const SurfaceLinks links{pixels};
     PatchBuilder{links, *prepared}.build();
     if (use == SurfaceUse::cpu_kernels) {

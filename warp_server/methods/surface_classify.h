@@ -34,6 +34,7 @@ struct PatchList {
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void clear();
+    void reserve(std::size_t count);
 };
 inline constexpr std::uint8_t kAllCorners = 15;
 

@@ -121,14 +121,28 @@ public:
     }
 
 private:
+    static constexpr std::size_t kPatchesAhead = 64;
+
     // As many patches at once as there are lanes; `paint` gets those that have pixels here, object by object.
     template <class Paint>
     HWY_INLINE void place_all(const PatchList& list, ListRange range, const Paint& paint) {
         const hn::CappedTag<float, 1> d1;
         const std::size_t lanes = hn::Lanes(DF{});
         std::size_t i = range.begin;
-        for (; i + lanes <= range.end; i += lanes) place_some(DF{}, list, i, paint);
+        for (; i + lanes <= range.end; i += lanes) {
+            fetch(list, i + kPatchesAhead);
+            place_some(DF{}, list, i, paint);
+        }
         for (; i < range.end; ++i) place_some(d1, list, i, paint);
+    }
+
+    // Ten arrays are more than the hardware follows by itself. Beyond their ends asking does no harm.
+    static HWY_INLINE void fetch(const PatchList& list, std::size_t at) {
+        for (const std::vector<float>* values : {&list.x, &list.y, &list.depth, &list.gradient_x, &list.gradient_y,
+                                                 &list.left, &list.right, &list.top, &list.bottom}) {
+            __builtin_prefetch(values->data() + at);
+        }
+        __builtin_prefetch(list.object_id.data() + at);
     }
 
     template <class D, class Paint>

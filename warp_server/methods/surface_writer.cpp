@@ -6,13 +6,6 @@
 
 namespace lw {
 
-PatchExtent patch_extent(int origin, int first, int end, int size, PatchOverlap overlap) {
-    const bool at_begin = origin + first == 0;
-    const bool at_end = origin + end == size;
-    return {at_begin ? -0.5F : static_cast<float>(first) - overlap.before_px,
-            at_end ? static_cast<float>(end) - 0.5F : static_cast<float>(end) + overlap.after_px};
-}
-
 void PatchWriter::add(PatchList& list, int x, int y, glm::ivec2 size, const BlockPlane& plane,
                       std::uint8_t corners) const {
     const PatchOverlap overlap = corners == kAllCorners ? kPatchOverlap : kEdgeOverlap;

@@ -27,7 +27,12 @@ struct PatchExtent {
 
 /// Cells [first, end) of those from `origin` on, in an image of `size` pixels along the axis. They reach `overlap`
 /// further, and at the rim of the image half a pixel, to the image's edge; the last cells half as far.
-[[nodiscard]] PatchExtent patch_extent(int origin, int first, int end, int size, PatchOverlap overlap);
+[[nodiscard]] inline PatchExtent patch_extent(int origin, int first, int end, int size, PatchOverlap overlap) {
+    const bool at_begin = origin + first == 0;
+    const bool at_end = origin + end == size;
+    return {at_begin ? -0.5F : static_cast<float>(first) - overlap.before_px,
+            at_end ? static_cast<float>(end) - 0.5F : static_cast<float>(end) + overlap.after_px};
+}
 
 /// One thread at a time.
 class PatchWriter {

@@ -9,6 +9,7 @@
 #include "billboard_lod/bounded_queue.h"
 #include "billboard_lod/object_groups.h"
 #include "billboard_lod/object_score.h"
+#include "billboard_lod/outline_points.h"
 #include "billboard_lod/update_cost.h"
 #include "core/check.h"
 
@@ -36,6 +37,7 @@ struct Look {
 
 struct Entry {
     BillboardObject object;
+    std::vector<glm::dvec3> outline;  ///< outline_points() of its instances, in the space of its bounds
     std::uint64_t triangles = 0;
     std::optional<Version> current;
     std::optional<Version> previous;  ///< while it fades out
@@ -86,6 +88,7 @@ public:
         for (BillboardObject& object : billboard_objects(scene, state, eligible, settings.group_touching)) {
             Entry entry;
             for (const std::uint32_t instance : object.instances) entry.triangles += painter.triangles_of(instance);
+            entry.outline = outline_of(object, state);
             entry.object = std::move(object);
             entries_.push_back(std::move(entry));
         }
@@ -280,8 +283,26 @@ private:
         return slots_.reserve(level);
     }
 
+    [[nodiscard]] std::vector<glm::dvec3> outline_of(const BillboardObject& object,
+                                                     const scene::SceneState& state) const {
+        std::vector<glm::dvec3> outline;
+        for (const std::uint32_t index : object.instances) {
+            const scene::Instance& instance = scene_.instances[index];
+            std::vector<glm::dvec3> points = outline_points(scene_.meshes[static_cast<std::size_t>(instance.mesh)]);
+            if (!object.group()) return points;
+            const glm::dmat4 world_from_object = state.world_from_object(instance);
+            for (const glm::dvec3& point : points) outline.emplace_back(world_from_object * glm::dvec4{point, 1.0});
+        }
+        return outline;
+    }
+
+    /// Closer than `bounds`: what is drawn anew covers fewer texels, and quads fewer pixels.
+    [[nodiscard]] ProjectedBounds outline_bounds(const Entry& entry) const {
+        return projected(entry.outline, eye_from_world_ * entry.world_from_object, camera_);
+    }
+
     [[nodiscard]] std::size_t wanted_level(const Entry& entry) const {
-        return covering_dimension(grid_on_pixels(entry.bounds, camera_, settings_.texels_per_px).size);
+        return covering_dimension(grid_on_pixels(outline_bounds(entry), camera_, settings_.texels_per_px).size);
     }
 
     bool evict(std::size_t level) {
@@ -329,11 +350,11 @@ private:
     [[nodiscard]] Version drawn_now(const Entry& entry, AtlasSlot slot) const {
         Version version;
         version.slot = slot;
-        version.drawn.grid =
-            grid_in_slot(entry.bounds, camera_, settings_.texels_per_px, kBillboardDimensions[slot.level]);
-        version.drawn.nearest_m = entry.bounds.nearest_m();
-        version.drawn.farthest_m = entry.bounds.farthest_m();
-        version.drawn.plane_m = entry.bounds.centre_m();
+        const ProjectedBounds bounds = outline_bounds(entry);
+        version.drawn.grid = grid_in_slot(bounds, camera_, settings_.texels_per_px, kBillboardDimensions[slot.level]);
+        version.drawn.nearest_m = bounds.nearest_m();
+        version.drawn.farthest_m = bounds.farthest_m();
+        version.drawn.plane_m = bounds.centre_m();
         const glm::dmat4 world_from_eye = matrix_of(camera_.world_from_eye);
         version.object_from_eye_drawn = glm::inverse(entry.world_from_object) * world_from_eye;
         version.horizontal_world = right_of(camera_);

@@ -1,5 +1,6 @@
 #include "billboard_lod/projected_bounds.h"
 
+#include <array>
 #include <cmath>
 
 namespace lw {
@@ -11,8 +12,19 @@ bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.
 }  // namespace
 
 ProjectedBounds projected(const scene::Bounds& bounds_object, const glm::dmat4& eye_from_object, const Camera& camera) {
+    if (bounds_object.empty() || !finite(bounds_object.min) || !finite(bounds_object.max)) return {};
+    std::array<glm::dvec3, 8> corners;
+    for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+        corners[corner] = {(corner & 1) != 0 ? bounds_object.max.x : bounds_object.min.x,
+                           (corner & 2) != 0 ? bounds_object.max.y : bounds_object.min.y,
+                           (corner & 4) != 0 ? bounds_object.max.z : bounds_object.min.z};
+    }
+    return projected(corners, eye_from_object, camera);
+}
+
+ProjectedBounds projected(std::span<const glm::dvec3> points_object, const glm::dmat4& eye_from_object,
+                          const Camera& camera) {
     ProjectedBounds result;
-    if (bounds_object.empty() || !finite(bounds_object.min) || !finite(bounds_object.max)) return result;
     result.ndc_min = glm::dvec2{1e300};
     result.ndc_max = glm::dvec2{-1e300};
     result.eye_min = glm::dvec3{1e300};
@@ -20,11 +32,8 @@ ProjectedBounds projected(const scene::Bounds& bounds_object, const glm::dmat4& 
     const FovTangents& fov = camera.fov;
     const glm::dvec2 middle{0.5 * (fov.left + fov.right), 0.5 * (fov.down + fov.up)};
     const glm::dvec2 half{0.5 * (fov.right - fov.left), 0.5 * (fov.up - fov.down)};
-    bool outside[4] = {true, true, true, true};  // all corners left of, right of, below, above the view
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::dvec3 object{(corner & 1) != 0 ? bounds_object.max.x : bounds_object.min.x,
-                                (corner & 2) != 0 ? bounds_object.max.y : bounds_object.min.y,
-                                (corner & 4) != 0 ? bounds_object.max.z : bounds_object.min.z};
+    bool outside[4] = {true, true, true, true};  // all of them left of, right of, below, above the view
+    for (const glm::dvec3& object : points_object) {
         const glm::dvec3 eye{eye_from_object * glm::dvec4{object, 1.0}};
         if (!finite(eye)) return {};
         result.eye_min = glm::min(result.eye_min, eye);

@@ -2,6 +2,7 @@
 /// Where an object's box lies before a camera: what every decision about its billboard starts from.
 
 #include <glm/glm.hpp>
+#include <span>
 
 #include "core/camera.h"
 #include "scene/scene.h"
@@ -12,7 +13,7 @@ namespace lw {
 struct ProjectedBounds {
     glm::dvec2 ndc_min{0.0};
     glm::dvec2 ndc_max{0.0};
-    glm::dvec3 eye_min{0.0};  ///< of the eight corners, eye space, metres
+    glm::dvec3 eye_min{0.0};  ///< of its corners, eye space, metres
     glm::dvec3 eye_max{0.0};
     bool sound = false;    ///< the box is finite and not empty, and so are its corners in eye space
     bool usable = false;   ///< finite and wholly beyond the near plane; ndc_* mean nothing otherwise
@@ -29,6 +30,10 @@ struct ProjectedBounds {
 /// The corners of `bounds_object` before `camera`. An empty or infinite box is neither usable nor visible. Pure, any
 /// thread.
 [[nodiscard]] ProjectedBounds projected(const scene::Bounds& bounds_object, const glm::dmat4& eye_from_object,
+                                        const Camera& camera);
+
+/// The same of points, finite and at least one, that stand for a box: for all that lies between them.
+[[nodiscard]] ProjectedBounds projected(std::span<const glm::dvec3> points_object, const glm::dmat4& eye_from_object,
                                         const Camera& camera);
 
 }  // namespace lw

@@ -100,32 +100,22 @@ std::unique_ptr<WarpMethod> checked_method(const std::string& specification) {
     return std::move(*method);
 }
 
-void warp(benchmark::State& state, const std::string& specification) {
-    const auto method = checked_method(specification);
-    std::vector<Layer> prepared;
-    for (std::size_t i = 0; i < kFrames; ++i) {
-        prepared.push_back(half_covered_layer(kSize_px, kMovers));
-        if (auto ready = method->prepare(prepared[i]))
-            prepared[i].prepared.emplace_back(specification, std::move(ready));
-    }
-    const Camera camera = moved_head(prepared[0].camera);
-    const std::vector<ObjectTransform> movers = moved_objects(prepared[0]);
-    DisplayFrame frames[2];
-    measure(state, [&](std::size_t i) { method->warp(prepared[i], {camera, movers}, frames[i % 2]); });
-    state.counters["hole_fraction"] = hole_fraction(frames[0]);
-}
-
-void warp_turned(benchmark::State& state, const std::string& specification, double degrees) {
-    const auto method = checked_method(specification);
-    std::vector<Layer> prepared;
-    for (std::size_t i = 0; i < kFrames; ++i) {
-        prepared.push_back(half_covered_layer(kSize_px, kMovers));
-        if (auto ready = method->prepare(prepared[i]))
-            prepared[i].prepared.emplace_back(specification, std::move(ready));
-    }
-    Camera camera = prepared[0].camera;
+// A head that only turned, about the vertical axis.
+Camera turned_head(const Camera& source, double degrees) {
+    Camera camera = source;
     camera.world_from_eye.orientation =
         glm::angleAxis(glm::radians(degrees), glm::dvec3{0.0, 1.0, 0.0}) * camera.world_from_eye.orientation;
+    return camera;
+}
+
+void warp(benchmark::State& state, const std::string& specification, const Camera& camera) {
+    const auto method = checked_method(specification);
+    std::vector<Layer> prepared;
+    for (std::size_t i = 0; i < kFrames; ++i) {
+        prepared.push_back(half_covered_layer(kSize_px, kMovers));
+        if (auto ready = method->prepare(prepared[i]))
+            prepared[i].prepared.emplace_back(specification, std::move(ready));
+    }
     const std::vector<ObjectTransform> movers = moved_objects(prepared[0]);
     DisplayFrame frames[2];
     measure(state, [&](std::size_t i) { method->warp(prepared[i], {camera, movers}, frames[i % 2]); });
@@ -199,15 +189,17 @@ void register_all() {
     for (const MethodEntry& entry : warp_methods()) {
         if (entry.name == "reference" || (entry.needs_gl && gl_context() == nullptr)) continue;
         const std::string name{entry.name};
-        add("warp/" + name, [name](benchmark::State& state) { warp(state, name); });
+        add("warp/" + name, [name](benchmark::State& state) { warp(state, name, moved_head(layers()[0].camera)); });
         if (entry.settings.find("threads") == std::string_view::npos) continue;
-        add("warp/" + name + ":threads=2", [name](benchmark::State& state) { warp(state, name + ":threads=2"); });
+        add("warp/" + name + ":threads=2",
+            [name](benchmark::State& state) { warp(state, name + ":threads=2", moved_head(layers()[0].camera)); });
         add("two_threads_over_one/" + name, [name](benchmark::State& state) { two_threads(state, name); });
     }
     for (const std::string name : {"splat", "splat:threads=2", "surface", "surface:threads=2"}) {
         for (const int degrees : {0, 5, 10, 20, 30}) {
-            add("turned/" + name + "/degrees=" + std::to_string(degrees),
-                [name, degrees](benchmark::State& state) { warp_turned(state, name, degrees); });
+            add("turned/" + name + "/degrees=" + std::to_string(degrees), [name, degrees](benchmark::State& state) {
+                warp(state, name, turned_head(layers()[0].camera, degrees));
+            });
         }
     }
     add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });

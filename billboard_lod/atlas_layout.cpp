@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <functional>
 
 #include "core/check.h"
 
@@ -20,7 +21,17 @@ AtlasLayout atlas_layout(int dimension, int wanted, glm::ivec2 limit_px) {
     const std::int64_t height = std::min(dimension * ((total + width - 1) / width), power_of_two(limit_px.y));
     layout.columns = static_cast<int>(width / dimension);
     layout.rows = static_cast<int>(height / dimension);
+    layout.pages = 1;
     layout.capacity = layout.columns * layout.rows;
+    return layout;
+}
+
+AtlasLayout paged_layout(int dimension, int wanted, glm::ivec2 limit_px, int page_texels) {
+    const int on_page = std::clamp(page_texels / (dimension * dimension), 1, std::max(wanted, 1));
+    AtlasLayout layout = atlas_layout(dimension, std::min(wanted, on_page), limit_px);
+    if (layout.pages == 0) return layout;
+    layout.pages = (wanted + layout.capacity - 1) / layout.capacity;
+    layout.capacity *= layout.pages;
     return layout;
 }
 
@@ -48,7 +59,8 @@ std::optional<AtlasSlot> SlotTable::reserve(std::size_t level) {
 
 void SlotTable::release(AtlasSlot slot) {
     LW_CHECK(slot.level < free_.size(), "a slot of no level");
-    free_[slot.level].push_back(slot.index);
+    std::vector<int>& free = free_[slot.level];
+    free.insert(std::ranges::lower_bound(free, slot.index, std::greater{}), slot.index);
 }
 
 }  // namespace lw

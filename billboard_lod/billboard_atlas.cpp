@@ -1,5 +1,7 @@
 #include "billboard_lod/billboard_atlas.h"
 
+#include <algorithm>
+
 #include "core/check.h"
 #include "gl/stream_buffer.h"
 #include "shaders/billboard_blocks.h"
@@ -7,6 +9,10 @@
 namespace lw {
 
 namespace {
+
+/// 5 MB of ten bytes. A software GL clears what it gives: 2 ms for such a page, 137 ms for all slots of 256 x 256 at
+/// once.
+constexpr int kPageTexels = 1 << 19;
 
 std::vector<GLenum> surface_formats(AtlasFormat format) {
     if (format == AtlasFormat::packed) return {GL_RG32UI};
@@ -42,7 +48,9 @@ Result<BillboardAtlas> BillboardAtlas::create(AtlasFormat format,
     atlas.format_ = format;
     const glm::ivec2 limit_px = driver_limit_px();
     for (std::size_t level = 0; level < capacities.size(); ++level) {
-        atlas.layouts_[level] = atlas_layout(kBillboardDimensions[level], capacities[level], limit_px);
+        AtlasLayout& layout = atlas.layouts_[level];
+        layout = paged_layout(kBillboardDimensions[level], capacities[level], limit_px, kPageTexels);
+        atlas.pages_[level].resize(static_cast<std::size_t>(layout.pages));
     }
     auto clear = gl::Program::create({"billboards/clear.vert", "billboards/clear.frag"});
     if (!clear.ok()) return clear.error();
@@ -58,9 +66,9 @@ Result<BillboardAtlas> BillboardAtlas::create(AtlasFormat format,
     return atlas;
 }
 
-bool BillboardAtlas::allocate(std::size_t level) {
-    Level& made = levels_[level];
-    const glm::ivec2 size_px = layouts_[level].size_px();
+bool BillboardAtlas::allocate(AtlasPage page) {
+    Page& made = at(page);
+    const glm::ivec2 size_px = layouts_[page.level].size_px();
     while (glGetError() != GL_NO_ERROR) {
     }
     std::vector<const gl::Texture*> colours;
@@ -79,11 +87,11 @@ bool BillboardAtlas::allocate(std::size_t level) {
     return false;
 }
 
-bool BillboardAtlas::begin(std::size_t level, std::span<const int> slots) {
-    LW_CHECK(layouts_[level].capacity > 0, "an atlas without slots");
-    if (!levels_[level].framebuffer && !allocate(level)) return false;
-    levels_[level].framebuffer.bind();
-    clear(level, slots);
+bool BillboardAtlas::begin(AtlasPage page, std::span<const int> slots) {
+    LW_CHECK(page.index < layouts_[page.level].pages, "an atlas without this page");
+    if (!at(page).framebuffer && !allocate(page)) return false;
+    at(page).framebuffer.bind();
+    clear(page.level, slots);
     return true;
 }
 
@@ -110,8 +118,8 @@ void BillboardAtlas::clear(std::size_t level, std::span<const int> slots) {
     glDisable(GL_DEPTH_TEST);
 }
 
-void BillboardAtlas::bind_textures(std::size_t level) const {
-    const Level& bound = levels_[level];
+void BillboardAtlas::bind_textures(AtlasPage page) const {
+    const Page& bound = pages_[page.level][static_cast<std::size_t>(page.index)];
     glBindTextureUnit(shader::kUnitAtlasDepth, bound.depth.id());
     for (std::size_t i = 0; i < bound.surfaces.size(); ++i) {
         glBindTextureUnit(static_cast<GLuint>(shader::kUnitAtlasSurface) + static_cast<GLuint>(i),
@@ -120,9 +128,9 @@ void BillboardAtlas::bind_textures(std::size_t level) const {
 }
 
 std::size_t BillboardAtlas::bytes(std::size_t level) const {
-    if (!levels_[level].framebuffer) return 0;
+    const auto made = std::ranges::count_if(pages_[level], [](const Page& page) { return bool{page.framebuffer}; });
     const glm::ivec2 size_px = layouts_[level].size_px();
-    return static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y) *
+    return static_cast<std::size_t>(made) * static_cast<std::size_t>(size_px.x) * static_cast<std::size_t>(size_px.y) *
            static_cast<std::size_t>(bytes_per_texel(format_));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// The framebuffers that hold the billboards' surfaces: one per dimension.
+/// The framebuffers that hold the billboards' surfaces: one per dimension and page.
 
 #include <array>
 #include <cstdint>
@@ -36,37 +36,39 @@ enum class AtlasFormat : std::uint8_t {
 class BillboardAtlas {
 public:
     /// `capacities[i]` slots of kBillboardDimensions[i] are wanted, 0 or more; the driver's limits may allow fewer.
-    /// Memory is taken when a dimension is first drawn to. A shader that does not compile is an error.
+    /// Memory is taken page by page, when each is first drawn to. A shader that does not compile is an error.
     [[nodiscard]] static Result<BillboardAtlas> create(AtlasFormat format,
                                                        const std::array<int, kBillboardDimensions.size()>& capacities);
 
     [[nodiscard]] AtlasFormat format() const { return format_; }
     [[nodiscard]] const AtlasLayouts& layouts() const { return layouts_; }
 
-    /// Makes the framebuffer of `level` current, viewport over all of it, and clears the depth of `slots` (indices).
-    /// False when the driver has no memory for it; nothing is bound then. Programmer error without capacity.
-    [[nodiscard]] bool begin(std::size_t level, std::span<const int> slots);
+    /// Makes the framebuffer of `page` current, viewport over all of it, and clears the depth of `slots` (their
+    /// indices; they lie on it). False when the driver has no memory for it; nothing is bound then. No such page:
+    /// programmer error.
+    [[nodiscard]] bool begin(AtlasPage page, std::span<const int> slots);
 
-    /// Binds the textures of `level` to the units of billboard_blocks.h. It was drawn to.
-    void bind_textures(std::size_t level) const;
+    /// Binds the textures of `page` to the units of billboard_blocks.h. It was drawn to.
+    void bind_textures(AtlasPage page) const;
 
     /// Bytes of the textures of a level: what it takes now (0 before it was first drawn to).
     [[nodiscard]] std::size_t bytes(std::size_t level) const;
 
 private:
-    struct Level {
+    struct Page {
         std::vector<gl::Texture> surfaces;
         gl::Texture depth;
         gl::Framebuffer framebuffer;
     };
 
     BillboardAtlas() = default;
-    [[nodiscard]] bool allocate(std::size_t level);
+    [[nodiscard]] Page& at(AtlasPage page) { return pages_[page.level][static_cast<std::size_t>(page.index)]; }
+    [[nodiscard]] bool allocate(AtlasPage page);
     void clear(std::size_t level, std::span<const int> slots);
 
     AtlasFormat format_ = AtlasFormat::packed;
     AtlasLayouts layouts_;
-    std::array<Level, kBillboardDimensions.size()> levels_;
+    std::array<std::vector<Page>, kBillboardDimensions.size()> pages_;  ///< by level; empty until drawn to
     gl::Program clear_;
     gl::Buffer rects_;  ///< mutable storage, replaced per clear
     gl::VertexArray rect_array_;

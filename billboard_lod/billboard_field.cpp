@@ -225,8 +225,9 @@ private:
     }
 
     [[nodiscard]] double error_px(const Version& version, const glm::dmat4& eye_now_from_eye_drawn) const {
-        return settings_.mode == BillboardMode::flat ? flat_error_px(version.drawn, eye_now_from_eye_drawn, camera_)
-                                                     : warped_error_px(version.drawn, eye_now_from_eye_drawn, camera_);
+        const bool flat = settings_.mode == BillboardMode::flat && settings_.criterion == UpdateCriterion::error;
+        return flat ? flat_error_px(version.drawn, eye_now_from_eye_drawn, camera_)
+                    : warped_error_px(version.drawn, eye_now_from_eye_drawn, camera_);
     }
 
     void create_new() {
@@ -365,36 +366,42 @@ private:
 
     /// Draws the entries of jobs_ into their slots. @return how many were drawn
     std::uint64_t paint_jobs() {
+        const auto page_of_job = [&](std::uint32_t e) { return page_of(atlas_.layouts(), entries_[e].current->slot); };
+        std::ranges::stable_sort(jobs_, {}, page_of_job);
         std::uint64_t painted = 0;
-        for (std::size_t level = 0; level < kBillboardDimensions.size(); ++level) {
-            views_.clear();
-            cleared_.clear();
-            for (const std::uint32_t e : jobs_) {
-                const Version& version = *entries_[e].current;
-                if (version.slot.level != level) continue;
-                cleared_.push_back(version.slot.index);
-                PaintedView view = painted_view(version.drawn, atlas_.layouts()[level], version.slot.index, camera_);
-                for (const std::uint32_t instance : entries_[e].object.instances) {
-                    view.instance = instance;
-                    views_.push_back(view);
-                }
-            }
-            if (views_.empty()) continue;
-            const bool bound = atlas_.begin(level, cleared_);
-            if (bound) {
-                counters_.triangles_painted += painter_.paint(views_, camera_.world_from_eye.position_m);
-                painted += cleared_.size();
-            }
-            settle(level, bound);
+        for (std::span<const std::uint32_t> rest{jobs_}; !rest.empty();) {
+            const AtlasPage page = page_of_job(rest.front());
+            const auto count =
+                static_cast<std::size_t>(std::ranges::upper_bound(rest, page, {}, page_of_job) - rest.begin());
+            painted += paint_page(page, rest.first(count));
+            rest = rest.subspan(count);
         }
         return painted;
     }
 
-    /// What was to be painted at `level` is shown, or was not to be had.
-    void settle(std::size_t level, bool painted) {
-        for (const std::uint32_t e : jobs_) {
+    /// `jobs` have their slots on `page`. @return how many were drawn: all or, without memory for the page, none
+    std::uint64_t paint_page(AtlasPage page, std::span<const std::uint32_t> jobs) {
+        views_.clear();
+        cleared_.clear();
+        for (const std::uint32_t e : jobs) {
+            const Version& version = *entries_[e].current;
+            cleared_.push_back(version.slot.index);
+            PaintedView view = painted_view(version.drawn, atlas_.layouts()[page.level], version.slot.index, camera_);
+            for (const std::uint32_t instance : entries_[e].object.instances) {
+                view.instance = instance;
+                views_.push_back(view);
+            }
+        }
+        const bool bound = atlas_.begin(page, cleared_);
+        if (bound) counters_.triangles_painted += painter_.paint(views_, camera_.world_from_eye.position_m);
+        settle(jobs, bound);
+        return bound ? jobs.size() : 0;
+    }
+
+    /// What was to be painted is shown, or was not to be had.
+    void settle(std::span<const std::uint32_t> jobs, bool painted) {
+        for (const std::uint32_t e : jobs) {
             Entry& entry = entries_[e];
-            if (!entry.current || entry.current->slot.level != level) continue;
             if (painted) {
                 entry.shown = Shown::billboard;
             } else {
@@ -463,7 +470,7 @@ private:
         std::optional<shader::BillboardRecord> record = quad_of(entry, version, part);
         if (!record) return std::nullopt;
         record->object.x = entry.object.id;
-        return DrawnQuad{version.slot.level, *record, 1.0f};
+        return DrawnQuad{page_of(atlas_.layouts(), version.slot), *record, 1.0f};
     }
 
     void begin_stage() {

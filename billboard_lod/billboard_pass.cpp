@@ -21,12 +21,12 @@ glm::vec4 ndc_from_tangent(const FovTangents& fov) {
 /// What is drawn at once, in the order in which it is drawn.
 struct Batch {
     float opacity;
-    std::size_t level;
+    AtlasPage page;
 
     friend auto operator<=>(const Batch&, const Batch&) = default;
 };
 
-Batch batch_of(const DrawnQuad& quad) { return {quad.opacity, quad.level}; }
+Batch batch_of(const DrawnQuad& quad) { return {quad.opacity, quad.page}; }
 
 }  // namespace
 
@@ -104,7 +104,7 @@ void BillboardPass::draw(const Way& way, std::span<const DrawnQuad> quads, const
         const Batch batch = batch_of(quads[active_list_[first]]);
         while (end < active_list_.size() && batch_of(quads[active_list_[end]]) == batch) ++end;
         glBlendColor(0.0f, 0.0f, 0.0f, batch.opacity);
-        atlas.bind_textures(batch.level);
+        atlas.bind_textures(batch.page);
         draw_range(way, first, end - first);
     }
     glDisable(GL_DEPTH_TEST);

@@ -23,7 +23,7 @@ enum class QuadExpansion : std::uint8_t {
 
 /// One billboard of a frame.
 struct DrawnQuad {
-    std::size_t level = 0;  ///< the atlas it lies in
+    AtlasPage page;  ///< it lies there
     shader::BillboardRecord record;
     float opacity = 1.0f;  ///< above 0; below 1 in a picture only
 };
@@ -69,7 +69,7 @@ private:
     Way surfaces_;
     Way lit_;             ///< empty unless asked for
     gl::Buffer records_;  ///< mutable storage, replaced per draw
-    gl::Buffer active_;   ///< indices of the active ones by level
+    gl::Buffer active_;   ///< indices of the active ones by page
     gl::VertexArray vertex_array_;
     std::vector<shader::BillboardRecord> record_list_;
     std::vector<std::uint32_t> active_list_;

@@ -19,7 +19,9 @@ enum class BillboardMode : std::uint8_t {
 
 enum class UpdateCriterion : std::uint8_t {
     angles,  ///< the three heuristics of seed 000
-    error,   ///< pixels
+    error,   ///< pixels that the mode's own billboards are off
+    /// Pixels that warped ones would be off, in either mode: flat and warped ones are drawn anew at the same times.
+    warped_error,
 };
 
 struct BillboardSettings {

@@ -53,6 +53,36 @@ TEST(AtlasLayout, ViewportsAndTextureCoordinatesOfASlot) {
     EXPECT_EQ(uv, glm::dvec4(0.5, 0.5, 0.75, 1.0));
 }
 
+TEST(AtlasLayout, PagesHoldAtMostTheirTexels) {
+    const AtlasLayout layout = paged_layout(256, 20, {16384, 16384}, 1 << 19);  // eight slots of 65536 texels
+    EXPECT_EQ(layout.size_px(), glm::ivec2(2048, 256));
+    EXPECT_EQ(layout.pages, 3);
+    EXPECT_EQ(layout.capacity, 24) << "the last page is whole";
+    EXPECT_EQ(layout.page_of(7), 0);
+    EXPECT_EQ(layout.page_of(8), 1);
+    EXPECT_EQ(layout.slot_origin_px(19), glm::ivec2(3 * 256, 0)) << "the fourth of the third page";
+}
+
+TEST(AtlasLayout, FewSlotsTakeNoMoreThanTheyNeed) {
+    const AtlasLayout layout = paged_layout(64, 8, {256, 256}, 1 << 19);
+    EXPECT_EQ(layout.size_px(), glm::ivec2(256, 128));
+    EXPECT_EQ(layout.pages, 1);
+    EXPECT_EQ(layout.capacity, 8);
+}
+
+TEST(AtlasLayout, ALimitBelowAPageMakesMorePages) {
+    const AtlasLayout layout = paged_layout(512, 8, {512, 1024}, 1 << 22);  // two slots where sixteen were allowed
+    EXPECT_EQ(layout.pages, 4);
+    EXPECT_EQ(layout.capacity, 8);
+}
+
+TEST(AtlasLayout, AtLeastOneSlotIsOnAPageAndNoneWhereNoneFits) {
+    EXPECT_EQ(paged_layout(512, 3, {16384, 16384}, 1).pages, 3);
+    EXPECT_EQ(paged_layout(512, 3, {256, 16384}, 1 << 19).capacity, 0);
+    EXPECT_EQ(paged_layout(512, 0, {16384, 16384}, 1 << 19).capacity, 0);
+    EXPECT_EQ(paged_layout(512, -1, {16384, 16384}, 1 << 19).pages, 0);
+}
+
 AtlasLayouts small_layouts() {
     AtlasLayouts layouts;
     for (std::size_t level = 0; level < layouts.size(); ++level) {
@@ -78,6 +108,17 @@ TEST(SlotTable, AReleasedSlotComesBack) {
     table.release(slot);
     EXPECT_EQ(table.free_count(0), 1U);
     EXPECT_EQ(*table.reserve(0), slot);
+}
+
+TEST(SlotTable, TheFirstFreeSlotIsTaken) {
+    AtlasLayouts layouts;
+    layouts[0] = paged_layout(16, 4, {16384, 16384}, 2 * 16 * 16);  // two pages
+    SlotTable table{layouts};
+    for (int index = 0; index < 4; ++index) EXPECT_EQ(table.reserve(0)->index, index);
+    table.release({0, 1});
+    table.release({0, 3});
+    table.release({0, 0});
+    for (const int index : {0, 1, 3}) EXPECT_EQ(table.reserve(0)->index, index);
 }
 
 TEST(SlotTable, WithoutCapacityThereIsNothing) {

@@ -1,4 +1,5 @@
 // Billboards through the whole client: what they show is compared with the meshes they stand for.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <limits>
@@ -273,6 +274,36 @@ TEST_F(GlBillboards, FullAtlasesLeaveTheRestAsMeshes) {
     EXPECT_EQ(renderer->billboards()->counters().atlas_meshes, 8U);
     // Some got slots that are too small for them: coarse, but whole and in place.
     EXPECT_GE(ssim(draw_meshes(*renderer, camera).colour, shown.colour), 0.9);
+}
+
+// All slots of 128 texels at once are 84 MB, which a software GL takes 33 ms to give.
+TEST_F(GlBillboards, MemoryIsTakenByPages) {
+    const scene::Scene scene = few_chairs();
+    const Camera camera = outside(scene);
+    BillboardSettings settings = with_mode(BillboardMode::warped);
+    settings.capacities = {512, 512, 512, 512, 512, 128};
+    auto renderer = make(scene, settings);
+    const auto bytes = [&] { return renderer->billboards()->bytes(); };
+    EXPECT_EQ(std::ranges::max(bytes()), 0U) << "nothing was drawn";
+    (void)draw(*renderer, camera);
+    EXPECT_EQ(renderer->billboards()->counters().active, 13U);
+    EXPECT_GT(std::ranges::max(bytes()), 0U);
+    EXPECT_LE(std::ranges::max(bytes()), std::size_t{10} << 19) << "13 billboards fit on one page of each size";
+}
+
+// Slots of 512 lie two on a page, so the wanted ones are on pages of their own.
+TEST_F(GlBillboards, OnSeveralPagesTheyShowWhatTheyShowOnOne) {
+    const scene::Scene scene = few_chairs();
+    const Camera camera = outside(scene);
+    BillboardSettings settings = with_mode(BillboardMode::warped);
+    settings.capacities = {0, 0, 0, 0, 0, 16};
+    auto renderer = make(scene, settings);
+    const CpuPixels first = draw(*renderer, camera);
+    EXPECT_EQ(renderer->billboards()->counters().active, 13U);
+    EXPECT_EQ(renderer->billboards()->bytes().back(), 7 * (std::size_t{10} << 19)) << "seven pages of two";
+    EXPECT_EQ(draw(*renderer, camera).colour, first.colour);
+    // A slot with room for more than three texels per pixel has more of them, an odd number, so the centres stay.
+    EXPECT_GE(ssim(draw_meshes(*renderer, camera).colour, first.colour), 0.995);
 }
 
 TEST_F(GlBillboards, WhatFallsOutOfAQueueIsAMesh) {

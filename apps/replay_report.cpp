@@ -105,12 +105,14 @@ std::string csv_of(const AttributedError& parts) {
 void add_costs(Report& report, const ReplayResult& result) {
     const ReplayCosts& costs = result.costs;
     report.set("cost_ms/warp", cost_of(costs.warp_ms.front()));
+    report.set("cost_ms/warp_cpu", cost_of(costs.warp_cpu_ms.front()));
     report.set("cost_ms/prepare", cost_of(costs.prepare_ms.front()));
     report.set("cost_ms/app", cost_of(costs.app_ms.front()));
     if (!costs.main_view_ms.empty()) report.set("cost_ms/main_view", cost_of(costs.main_view_ms));
     for (std::size_t i = 1; i < result.labels.size(); ++i) {
         const std::string path = "cost_ms/baselines/" + result.labels[i];
         report.set(path + "/warp", cost_of(costs.warp_ms[i]));
+        report.set(path + "/warp_cpu", cost_of(costs.warp_cpu_ms[i]));
         report.set(path + "/prepare", cost_of(costs.prepare_ms[i]));
         if (has_two_eyes(result)) report.set(path + "/app", cost_of(costs.app_ms[i]));
     }

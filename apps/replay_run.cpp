@@ -89,6 +89,7 @@ Status ReplayRun::make_methods(const Trace& trace) {
     }
     costs_.prepare_ms.resize(labels_.size());
     costs_.warp_ms.resize(labels_.size());
+    costs_.warp_cpu_ms.resize(labels_.size());
     return Done{};
 }
 
@@ -170,7 +171,9 @@ void ReplayRun::show(std::size_t method, const Pose& predicted_head, const Pose&
     target.camera.world_from_eye = predicted_head;
     target.movers = eyes_.front().truth.movers();
     const Stopwatch warping;
+    const ProcessorStopwatch working;
     methods_[method].warp(client_of(method).frame(), target);
+    costs_.warp_cpu_ms[method].push_back(working.ms());
     costs_.warp_ms[method].push_back(warping.ms());
     for (std::size_t i = 0; i < eyes_.size(); ++i) {
         const FrameWarper& shown = methods_[method].eye(i);

@@ -53,13 +53,14 @@ struct RefreshRecord {
     [[nodiscard]] double frame_age_ms() const { return (photon_s - pose_sampled_s) * 1e3; }
 };
 
-/// Wall times; what differs between two equal runs.
+/// Wall and processor times; what differs between two equal runs.
 struct ReplayCosts {
     std::vector<std::vector<double>> app_ms;      ///< per method and client frame: drawing what it needs, every view
     std::vector<double> app_model_ms;             ///< of --method, modelled (shell_budget.h): equal in equal runs
     std::vector<double> main_view_ms;             ///< of --method with shells: drawing everything as one layer
     std::vector<std::vector<double>> prepare_ms;  ///< per method and client frame; empty for `fresh`
     std::vector<std::vector<double>> warp_ms;  ///< per method and refresh, fill included, all eyes; empty for `fresh`
+    std::vector<std::vector<double>> warp_cpu_ms;  ///< the same as processor time of all threads
 };
 
 /// Draws each client frame and each truth once. All GL work happens on the thread that made the stage; error figures

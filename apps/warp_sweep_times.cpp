@@ -1,5 +1,3 @@
-#include <time.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cstring>
@@ -8,6 +6,7 @@
 #include <tuple>
 
 #include "apps/progress.h"
+#include "apps/stopwatch.h"
 #include "apps/warp_sweep_run.h"
 #include "apps/warp_sweep_stage.h"
 #include "warp_server/frame_warper.h"
@@ -20,12 +19,6 @@ constexpr std::size_t kSources = 3;
 constexpr int kWarmUp = 3;
 constexpr int kPrepares = 7;
 
-double processor_ms() {
-    timespec time{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) * 1e-6;
-}
-
 struct Took {
     double wall_ms = 0.0;
     double processor_ms = 0.0;
@@ -33,11 +26,10 @@ struct Took {
 
 template <class Work>
 Took timed(Work work) {
-    const double processor_begin_ms = processor_ms();
-    const auto begin = std::chrono::steady_clock::now();
+    const ProcessorStopwatch processor;
+    const Stopwatch wall;
     work();
-    const std::chrono::duration<double, std::milli> wall = std::chrono::steady_clock::now() - begin;
-    return {wall.count(), processor_ms() - processor_begin_ms};
+    return {wall.ms(), processor.ms()};
 }
 
 double median(std::vector<double> values) { return distribution_of(values)->p50; }

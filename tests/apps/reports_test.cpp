@@ -36,6 +36,7 @@ ReplayResult made_up_result() {
     }
     result.costs.app_ms = {{100.0, 50.0}, {100.0, 50.0}};
     result.costs.warp_ms = {{9.0, 2.0, 2.0}, {8.0, 4.0, 4.0}};
+    result.costs.warp_cpu_ms = {{9.0, 1.0, 2.0}, {8.0, 3.0, 4.0}};
     result.costs.prepare_ms = {{}, {}};
     return result;
 }
@@ -60,6 +61,7 @@ TEST(ReplayReport, HoldsTheKeysThatScriptsRead) {
     EXPECT_TRUE(json.at("baselines").at("points:size_px=2,x=1").at("error").at("flicker").is_null());
     EXPECT_TRUE(json.at("cause_shares").at("out_of_frame").at("mean").is_number());
     EXPECT_EQ(json.at("cost_ms").at("warp").at("mean"), 2.0) << "the first is the warm-up";
+    EXPECT_EQ(json.at("cost_ms").at("warp_cpu").at("mean"), 1.5);
     EXPECT_TRUE(json.at("cost_ms").at("prepare").is_null());
 }
 

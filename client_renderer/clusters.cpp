@@ -11,148 +11,31 @@
 #include <bit>
 #include <cmath>
 
-#include "client_renderer/box_kernels.h"
+#include "client_renderer/cluster_kernels.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
 
-/// Places in single precision: the sums and products here, and the vertices' own way through the vertex shader.
-constexpr float kPlacingRounding = 1e-6F;
-
-/// Boxes around the placed boxes.
-BoxVector placed(const BoxVector& object, const std::array<glm::vec4, 3>& rows) {
-    const DF d;
-    const Vector3 centre{object.centre_x, object.centre_y, object.centre_z};
-    const Vector3 half{object.half_x, object.half_y, object.half_z};
-    Vector3 to{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    Vector3 reach{hn::Zero(d), hn::Zero(d), hn::Zero(d)};
-    for (std::size_t row = 0; row < 3; ++row) {
-        const glm::vec4& m = rows[row];
-        to[row] = hn::Add(dot(&m.x, centre), hn::Set(d, m.w));
-        VF size = hn::Set(d, std::abs(m.w));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const VF magnitude = hn::Set(d, std::abs(m[static_cast<glm::length_t>(k)]));
-            size = hn::MulAdd(magnitude, hn::Abs(centre[k]), size);
-            reach[row] = hn::MulAdd(magnitude, half[k], reach[row]);
-        }
-        // Rounding of this sum and of the part's vertices on their own way through single precision.
-        reach[row] = hn::MulAdd(hn::Add(size, reach[row]), hn::Set(d, kPlacingRounding), reach[row]);
-    }
-    return {to[0], to[1], to[2], reach[0], reach[1], reach[2]};
-}
-
-ProjectingRows rows_of(const ClusterRange& range, const ClusterPlacement& placement) {
-    ProjectingRows rows;
-    std::array<std::array<float, 4>*, 3> to{&rows.x_px, &rows.y_px, &rows.distance};
-    for (std::size_t i = 0; i < 3; ++i) {
-        const glm::vec4& row = placement.buffer_from_object_rows[i];
-        *to[i] = {row.x, row.y, row.z, row.w};
-        rows.rounding[i] =
-            kPlacingRounding * (glm::dot(glm::abs(glm::vec3{row}), range.reach_object) + std::abs(row.w));
-    }
-    return rows;
-}
-
-/// Clusters whose triangles are all turned away from every eye within the margin.
-HWY_INLINE MF turned_away(const float* cones, std::size_t stride, const ClusterPlacement& placement) {
-    const DF d;
-    const auto row = [&](std::size_t which) HWY_ATTR { return hn::LoadU(d, cones + which * stride); };
-    const VF x = hn::Sub(row(0), hn::Set(d, placement.eye_object.x));
-    const VF y = hn::Sub(row(1), hn::Set(d, placement.eye_object.y));
-    const VF z = hn::Sub(row(2), hn::Set(d, placement.eye_object.z));
-    const VF margin = hn::Set(d, placement.margin_object);
-    const VF cutoff = row(6);
-    // along - margin >= cutoff * (distance + margin), without the root.
-    const VF along = hn::MulAdd(x, row(3), hn::MulAdd(y, row(4), hn::Mul(z, row(5))));
-    const VF beyond = hn::Sub(along, hn::MulAdd(cutoff, margin, margin));
-    const VF distance_2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
-    return hn::And(hn::And(hn::Le(cutoff, hn::Set(d, 1.0F)), hn::Gt(beyond, hn::Zero(d))),
-                   hn::Ge(hn::Mul(beyond, beyond), hn::Mul(hn::Mul(cutoff, cutoff), distance_2)));
-}
-
-/// Clusters at least two pixels of the buffer large: smaller ones lie in the same pixels as their object, which was not
-/// hidden, and there are many of them far away. (In the town of 20,000 buildings one pixel would take a quarter of a
-/// millisecond more, and leave 2 % of the triangles out.)
-HWY_INLINE MF worth_a_test(const Projected& projected) {
-    const DF d;
-    const VF width = hn::Sub(projected.x1, projected.x0);
-    const VF height = hn::Sub(projected.y1, projected.y0);
-    return hn::Ge(hn::Max(width, height), hn::Set(d, 2.0F));
-}
-
-/// One instance against the view.
-class InstanceTest {
-public:
-    InstanceTest(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
-                 ClusterCounters& counters)
-        : clusters_{clusters},
-          view_{clusters.view()},
-          placement_{placement},
-          rows_{rows_of(range, placement)},
-          counters_{counters} {}
-
-    /// Bits of the clusters from `first` on that may be seen.
-    /// @param all  bits of those that there are
-    HWY_INLINE std::uint32_t seen(std::size_t first, std::uint32_t all) {
-        const BoxVector boxes = load_boxes(clusters_.boxes(), first);
-        const Vector3 centre{boxes.centre_x, boxes.centre_y, boxes.centre_z};
-        const Vector3 half{boxes.half_x, boxes.half_y, boxes.half_z};
-        Projected projected;
-        std::uint32_t bits = all;
-        const MF far = project_from_afar(centre, half, rows_, view_.buffer_relative.near_m, projected);
-        if ((all & ~bits_of(far)) != 0) bits = keep_in_view(boxes, bits, far, projected);
-        bits = kept(bits, in_picture(projected, view_.buffer_relative), counters_.outside);
-        bits = kept(bits, meets_sample(projected, view_.buffer_relative), counters_.between_samples);
-        if (bits == 0) return 0;
-        const MF away = turned_away(clusters_.cone_row(0) + first, clusters_.cone_stride(), placement_);
-        bits = kept(bits, hn::Not(away), counters_.turned_away);
-        if (view_.least_size_per_distance > 0.0F && bits != 0) {
-            const BoxVector relative = placed(boxes, placement_.relative_from_object_rows);
-            bits = kept(bits, large_enough(relative, {}, view_.least_size_per_distance), counters_.too_small);
-        }
-        if (view_.occlusion != nullptr) bits = not_hidden(projected, bits);
-        return bits;
-    }
-
-private:
-    static HWY_INLINE std::uint32_t kept(std::uint32_t bits, MF keep, std::uint64_t& left_out) {
-        const std::uint32_t kept_bits = bits & bits_of(keep);
-        left_out += static_cast<std::uint64_t>(std::popcount(bits & ~kept_bits));
-        return kept_bits;
-    }
-
-    /// Near the eye a rectangle around a cluster says little.
-    std::uint32_t keep_in_view(const BoxVector& boxes, std::uint32_t bits, MF far, Projected& projected) {
-        const BoxVector relative = placed(boxes, placement_.relative_from_object_rows);
-        projected = chosen(far, projected, project(relative, view_.buffer_relative, bits));
-        const MF inside = in_frustum(relative, view_.frustum_relative, FloatFrustum::kAllPlanes);
-        return kept(bits, hn::Or(far, inside), counters_.outside);
-    }
-
-    HWY_INLINE std::uint32_t not_hidden(const Projected& projected, std::uint32_t bits) {
-        const std::uint32_t worth = bits & bits_of(worth_a_test(projected));
-        if (worth == 0) return bits;
-        const std::uint32_t hidden = hidden_of(*view_.occlusion, projected, worth);
-        counters_.occluded += static_cast<std::uint64_t>(std::popcount(hidden));
-        return bits & ~hidden;
-    }
-
-    const Clusters& clusters_;
-    const Clusters::View& view_;
-    const ClusterPlacement& placement_;
-    ProjectingRows rows_;
-    ClusterCounters& counters_;
-};
-
-/// @param shown  one bit per cluster; zeros come in
-void test_here(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
-               std::uint64_t* shown, ClusterCounters& counters) {
-    InstanceTest test{clusters, range, placement, counters};
+template <typename Test>
+HWY_INLINE void test_all(Test test, const ClusterRange& range, std::uint64_t* shown) {
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
     for (std::uint32_t i = 0; i < range.count; i += lanes) {
         const std::uint32_t bits = test.seen(range.first + i, lowest_bits(std::min(lanes, range.count - i)));
         shown[i / 64] |= std::uint64_t{bits} << (i % 64);
+    }
+}
+
+/// @param shown  one bit per cluster; zeros come in
+void test_here(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
+               std::uint64_t* shown, ClusterCounters& counters) {
+    const ProjectingRows rows = rows_of(range, placement);
+    const InstanceRect rect{range, rows, clusters.view().buffer_relative.near_m};
+    const SmallPlacement small{clusters, range, placement, rows, rect};
+    if (small.applies()) {
+        test_all(SmallInstanceTest{clusters, small, counters}, range, shown);
+    } else {
+        test_all(InstanceTest{clusters, placement, rows, counters}, range, shown);
     }
 }
 
@@ -176,6 +59,18 @@ constexpr float kEdgeOn = 0.1F;
 constexpr std::uint32_t kWorthADraw = 3 * 32;
 
 }  // namespace
+
+void ClusterRange::include(const scene::Bounds& cluster) {
+    least_object = glm::min(least_object, glm::vec3{cluster.min});
+    most_object = glm::max(most_object, glm::vec3{cluster.max});
+    largest_half_object = glm::max(largest_half_object, glm::vec3{cluster.half_size()});
+}
+
+void ClusterRange::include(const ClusterRange& other) {
+    least_object = glm::min(least_object, other.least_object);
+    most_object = glm::max(most_object, other.most_object);
+    largest_half_object = glm::max(largest_half_object, other.largest_half_object);
+}
 
 ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<std::uint32_t> indices,
                            bool double_sided) {
@@ -206,13 +101,11 @@ ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<st
             indices[next++] = vertex;
             bounds.include(glm::dvec3{vertices[vertex].position_object});
         }
+        range.include(bounds);
         bounds_.push_back(bounds);
         end_indices_.push_back(static_cast<std::uint32_t>(next));
     }
     range.count = static_cast<std::uint32_t>(meshlets.size());
-    for (const scene::Vertex& vertex : vertices) {
-        range.reach_object = glm::max(range.reach_object, glm::abs(vertex.position_object));
-    }
     return range;
 }
 

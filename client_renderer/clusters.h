@@ -17,7 +17,15 @@ namespace lw {
 struct ClusterRange {
     std::uint32_t first = 0;
     std::uint32_t count = 0;
-    glm::vec3 reach_object{0.0F};  ///< no coordinate is larger, on each axis
+    // Around all of them, and the largest half size on each axis.
+    glm::vec3 least_object{1e30F};
+    glm::vec3 most_object{-1e30F};
+    glm::vec3 largest_half_object{0.0F};
+
+    void include(const scene::Bounds& cluster);
+    void include(const ClusterRange& other);
+    /// No coordinate is larger, on each axis.
+    [[nodiscard]] glm::vec3 reach_object() const { return glm::max(glm::abs(least_object), glm::abs(most_object)); }
 };
 
 /// Neighbouring clusters of a part that are drawn: a range of the part's indices, counted from its first.

@@ -21,7 +21,11 @@ ClusterRange joined(const ClusterRange& a, const ClusterRange& b) {
     if (b.count == 0) return a;
     const std::uint32_t first = std::min(a.first, b.first);
     const std::uint32_t end = std::max(a.first + a.count, b.first + b.count);
-    return {first, end - first, glm::max(a.reach_object, b.reach_object)};
+    ClusterRange both = a;
+    both.first = first;
+    both.count = end - first;
+    both.include(b);
+    return both;
 }
 
 }  // namespace

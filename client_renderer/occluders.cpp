@@ -12,7 +12,7 @@ namespace lw {
 namespace {
 
 // Smaller ones cover few parts, and there are many of them.
-constexpr double kLeastParts = 8.0;
+constexpr double kLeastParts = 24.0;
 
 Occluder placed_occluder(const scene::SolidBox& box, const PlacedInstance& placed) {
     Occluder occluder;

@@ -17,6 +17,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "client_renderer/box_block.h"
 #include "client_renderer/box_list.h"
 #include "client_renderer/occlusion_buffer.h"
 
@@ -25,7 +26,7 @@ namespace lw::HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-using DF = hn::ScalableTag<float>;
+using DF = hn::CappedTag<float, BoxBlock::kBoxes>;
 using DI = hn::RebindToSigned<DF>;
 using VF = hn::Vec<DF>;
 using MF = hn::Mask<DF>;
@@ -75,6 +76,13 @@ HWY_INLINE BoxVector load_boxes(const BoxList& boxes, std::size_t first) {
     const DF d;
     return {hn::LoadU(d, boxes.row(0) + first), hn::LoadU(d, boxes.row(1) + first), hn::LoadU(d, boxes.row(2) + first),
             hn::LoadU(d, boxes.row(3) + first), hn::LoadU(d, boxes.row(4) + first), hn::LoadU(d, boxes.row(5) + first)};
+}
+
+/// @param first  of the block's boxes, after a whole number of vectors
+HWY_INLINE BoxVector load_boxes(const BoxBlock& block, std::size_t first) {
+    const DF d;
+    const auto row = [&](std::size_t which) HWY_ATTR { return hn::Load(d, block.rows[which].data() + first); };
+    return {row(0), row(1), row(2), row(3), row(4), row(5)};
 }
 
 HWY_INLINE BoxVector gather_boxes(const BoxList& boxes, const std::uint32_t* indices, std::size_t count) {

@@ -10,7 +10,6 @@
 #include <bit>
 
 #include "client_renderer/box_kernels.h"
-#include "client_renderer/fetch_lines.h"
 #include "core/check.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -97,7 +96,8 @@ private:
     /// A vector of slots.
     /// @param all  bits of those that there are
     void visit(std::uint32_t first, std::uint32_t all, unsigned planes) {
-        const BoxVector boxes = load_boxes(wide_.boxes(), first);
+        const WideBvh::Block& block = wide_.block(first);
+        const BoxVector boxes = load_boxes(block.boxes, first % WideBvh::kMostChildren);
         const InFrustum in = against(boxes, query_.frustum, planes);
         std::uint32_t bits = all & in.not_outside;
         if (bits != all) counters_.items_outside += items_of(first, all & ~bits);
@@ -107,7 +107,7 @@ private:
             by_size ? bits_of(large_enough(boxes, query_.eye_world, query_.least_size_per_distance)) : bits;
         for (; bits != 0; bits &= bits - 1) {
             const auto at = static_cast<std::uint32_t>(std::countr_zero(bits));
-            const WideBvh::Child& child = wide_.children()[first + at];
+            const WideBvh::Child& child = block.children[first % WideBvh::kMostChildren + at];
             if (child.is_item()) {
                 ++counters_.items;
                 if ((large >> at & 1U) == 0) {
@@ -127,24 +127,20 @@ private:
     }
 
     void push(const OpenNode& entry) {
-        const std::uint32_t first = entry.node.first;
-        const std::uint32_t count = entry.node.slot_count;
-        for (int row = 0; row < 6; ++row) fetch_run(wide_.boxes().row(row) + first, count);
-        fetch_run(wide_.children() + first, count);
-        fetch_run(wide_.item_counts() + first, count);
+        wide_.fetch(entry.node);
         open_.push_back(entry);
     }
 
     void take(std::uint32_t slot) {
         const auto begin = order_.begin() + wide_.first_item(slot);
-        seen_.insert(seen_.end(), begin, begin + wide_.item_counts()[slot]);
+        seen_.insert(seen_.end(), begin, begin + wide_.item_count(slot));
     }
 
     /// Items in and under the slots whose bits are set.
     [[nodiscard]] std::uint64_t items_of(std::uint32_t first, std::uint32_t bits) const {
         std::uint64_t items = 0;
         for (; bits != 0; bits &= bits - 1) {
-            items += wide_.item_counts()[first + static_cast<std::uint32_t>(std::countr_zero(bits))];
+            items += wide_.item_count(first + static_cast<std::uint32_t>(std::countr_zero(bits)));
         }
         return items;
     }

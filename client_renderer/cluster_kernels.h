@@ -56,16 +56,16 @@ ProjectingRows rows_of(const ClusterRange& range, const ClusterPlacement& placem
 }
 
 /// Clusters whose triangles are all turned away from every eye within the margin.
-HWY_INLINE MF turned_away(const float* cones, std::size_t stride, const ClusterPlacement& placement) {
+HWY_INLINE MF turned_away(const Clusters::Block& block, std::size_t first, const ClusterPlacement& placement) {
     const DF d;
-    const auto row = [&](std::size_t which) HWY_ATTR { return hn::LoadU(d, cones + which * stride); };
-    const VF x = hn::Sub(row(0), hn::Set(d, placement.eye_object.x));
-    const VF y = hn::Sub(row(1), hn::Set(d, placement.eye_object.y));
-    const VF z = hn::Sub(row(2), hn::Set(d, placement.eye_object.z));
+    const auto row = [&](std::size_t which) HWY_ATTR { return hn::Load(d, block.cones[which].data() + first); };
+    const VF x = hn::Sub(row(4), hn::Set(d, placement.eye_object.x));
+    const VF y = hn::Sub(row(5), hn::Set(d, placement.eye_object.y));
+    const VF z = hn::Sub(row(6), hn::Set(d, placement.eye_object.z));
     const VF margin = hn::Set(d, placement.margin_object);
-    const VF cutoff = row(6);
+    const VF cutoff = row(3);
     // along - margin >= cutoff * (distance + margin), without the root.
-    const VF along = hn::MulAdd(x, row(3), hn::MulAdd(y, row(4), hn::Mul(z, row(5))));
+    const VF along = hn::MulAdd(x, row(0), hn::MulAdd(y, row(1), hn::Mul(z, row(2))));
     const VF beyond = hn::Sub(along, hn::MulAdd(cutoff, margin, margin));
     const VF distance_2 = hn::MulAdd(x, x, hn::MulAdd(y, y, hn::Mul(z, z)));
     return hn::And(hn::And(hn::Le(cutoff, hn::Set(d, 1.0F)), hn::Gt(beyond, hn::Zero(d))),
@@ -117,12 +117,12 @@ class InstanceTest {
 public:
     InstanceTest(const Clusters& clusters, const ClusterPlacement& placement, const ProjectingRows& rows,
                  ClusterCounters& counters)
-        : clusters_{clusters}, view_{clusters.view()}, placement_{placement}, rows_{rows}, counters_{counters} {}
+        : view_{clusters.view()}, placement_{placement}, rows_{rows}, counters_{counters} {}
 
-    /// Bits of the clusters from `first` on that may be seen.
+    /// Bits of the clusters of a block from `first` on that may be seen.
     /// @param all  bits of those that there are
-    HWY_INLINE std::uint32_t seen(std::size_t first, std::uint32_t all) {
-        const BoxVector boxes = load_boxes(clusters_.boxes(), first);
+    HWY_INLINE std::uint32_t seen(const Clusters::Block& block, std::size_t first, std::uint32_t all) {
+        const BoxVector boxes = load_boxes(block.boxes_object, first);
         const Vector3 centre{boxes.centre_x, boxes.centre_y, boxes.centre_z};
         const Vector3 half{boxes.half_x, boxes.half_y, boxes.half_z};
         Projected projected;
@@ -132,7 +132,7 @@ public:
         bits = kept(bits, in_picture(projected, view_.buffer_relative), counters_.outside);
         bits = kept(bits, meets_sample(projected, view_.buffer_relative), counters_.between_samples);
         if (bits == 0) return 0;
-        const MF away = turned_away(clusters_.cone_row(0) + first, clusters_.cone_stride(), placement_);
+        const MF away = turned_away(block, first, placement_);
         bits = kept(bits, hn::Not(away), counters_.turned_away);
         if (view_.least_size_per_distance > 0.0F && bits != 0) {
             const BoxVector relative = placed(boxes, placement_.relative_from_object_rows);
@@ -165,7 +165,6 @@ private:
         return bits & ~hidden;
     }
 
-    const Clusters& clusters_;
     const Clusters::View& view_;
     const ClusterPlacement& placement_;
     ProjectingRows rows_;
@@ -231,10 +230,10 @@ public:
     }
 
     /// Clusters whose triangles are all turned away from every eye within the margin.
-    HWY_INLINE MF turned_away(const float* axes, std::size_t stride) const {
+    HWY_INLINE MF turned_away(const Clusters::Block& block, std::size_t first) const {
         const DF d;
-        const Vector3 axis{hn::LoadU(d, axes), hn::LoadU(d, axes + stride), hn::LoadU(d, axes + 2 * stride)};
-        return hn::Ge(hn::Sub(dot(&direction_object_.x, axis), hn::Set(d, off_)), hn::LoadU(d, axes + 3 * stride));
+        const auto row = [&](std::size_t which) HWY_ATTR { return hn::Load(d, block.cones[which].data() + first); };
+        return hn::Ge(hn::Sub(dot(&direction_object_.x, {row(0), row(1), row(2)}), hn::Set(d, off_)), row(3));
     }
 
 private:
@@ -249,15 +248,15 @@ private:
 
 class SmallInstanceTest {
 public:
-    SmallInstanceTest(const Clusters& clusters, const SmallPlacement& placement, ClusterCounters& counters)
-        : clusters_{clusters}, placement_{placement}, counters_{counters} {}
+    SmallInstanceTest(const SmallPlacement& placement, ClusterCounters& counters)
+        : placement_{placement}, counters_{counters} {}
 
     /// As InstanceTest's.
-    HWY_INLINE std::uint32_t seen(std::size_t first, std::uint32_t all) {
-        const BoxVector boxes = load_boxes(clusters_.boxes(), first);
+    HWY_INLINE std::uint32_t seen(const Clusters::Block& block, std::size_t first, std::uint32_t all) {
+        const BoxVector boxes = load_boxes(block.boxes_object, first);
         const MF meets = placement_.meets_sample({boxes.centre_x, boxes.centre_y, boxes.centre_z},
                                                  {boxes.half_x, boxes.half_y, boxes.half_z});
-        const MF away = placement_.turned_away(clusters_.cone_row(3) + first, clusters_.cone_stride());
+        const MF away = placement_.turned_away(block, first);
         const std::uint32_t met = all & bits_of(meets);
         const std::uint32_t seen = met & ~bits_of(away);
         counters_.between_samples += static_cast<std::uint64_t>(std::popcount(all & ~met));
@@ -266,7 +265,6 @@ public:
     }
 
 private:
-    const Clusters& clusters_;
     SmallPlacement placement_;
     ClusterCounters& counters_;
 };

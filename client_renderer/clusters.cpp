@@ -18,10 +18,12 @@ namespace lw::HWY_NAMESPACE {
 namespace {
 
 template <typename Test>
-HWY_INLINE void test_all(Test test, const ClusterRange& range, std::uint64_t* shown) {
+HWY_INLINE void test_all(Test test, const Clusters& clusters, const ClusterRange& range, std::uint64_t* shown) {
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
     for (std::uint32_t i = 0; i < range.count; i += lanes) {
-        const std::uint32_t bits = test.seen(range.first + i, lowest_bits(std::min(lanes, range.count - i)));
+        const std::size_t first = range.first + i;
+        const std::uint32_t bits =
+            test.seen(clusters.block(first), first % BoxBlock::kBoxes, lowest_bits(std::min(lanes, range.count - i)));
         shown[i / 64] |= std::uint64_t{bits} << (i % 64);
     }
 }
@@ -33,9 +35,9 @@ void test_here(const Clusters& clusters, const ClusterRange& range, const Cluste
     const InstanceRect rect{range, rows, clusters.view().buffer_relative.near_m};
     const SmallPlacement small{clusters, range, placement, rows, rect};
     if (small.applies()) {
-        test_all(SmallInstanceTest{clusters, small, counters}, range, shown);
+        test_all(SmallInstanceTest{small, counters}, clusters, range, shown);
     } else {
-        test_all(InstanceTest{clusters, placement, rows, counters}, range, shown);
+        test_all(InstanceTest{clusters, placement, rows, counters}, clusters, range, shown);
     }
 }
 
@@ -109,20 +111,26 @@ ClusterRange Clusters::add(std::span<const scene::Vertex> vertices, std::span<st
     return range;
 }
 
+void Clusters::begin_mesh() {
+    while (bounds_.size() % BoxBlock::kBoxes != 0) {
+        bounds_.emplace_back();
+        cones_.emplace_back();
+        end_indices_.push_back(0);
+    }
+}
+
 void Clusters::finish() {
-    boxes_.resize(bounds_.size());
-    for (std::size_t i = 0; i < bounds_.size(); ++i) boxes_.set(i, bounds_[i]);
-    // A vector may begin at any cluster.
-    constexpr std::size_t kMostLanes = 64;
-    cone_stride_ = bounds_.size() + kMostLanes;
-    cone_rows_.assign(7 * cone_stride_, 2.0F);
-    for (std::size_t i = 0; i < cones_.size(); ++i) {
+    blocks_.resize((bounds_.size() + BoxBlock::kBoxes - 1) / BoxBlock::kBoxes);
+    for (std::size_t i = 0; i < bounds_.size(); ++i) {
+        Block& block = blocks_[i / BoxBlock::kBoxes];
+        const std::size_t at = i % BoxBlock::kBoxes;
+        block.boxes_object.set(at, bounds_[i]);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<glm::length_t>(axis);
-            cone_rows_[axis * cone_stride_ + i] = cones_[i].apex_object[a];
-            cone_rows_[(3 + axis) * cone_stride_ + i] = cones_[i].axis_object[a];
+            block.cones[axis][at] = cones_[i].axis_object[a];
+            block.cones[4 + axis][at] = cones_[i].apex_object[a];
         }
-        cone_rows_[6 * cone_stride_ + i] = cones_[i].cutoff;
+        block.cones[3][at] = cones_[i].cutoff;
     }
 }
 

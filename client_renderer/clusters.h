@@ -2,11 +2,12 @@
 /// Meshes cut into clusters of about a hundred triangles that are skipped one by one: out of view, hidden, or turned
 /// away.
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "client_renderer/box_list.h"
+#include "client_renderer/box_block.h"
 #include "client_renderer/frustum.h"
 #include "client_renderer/occlusion_buffer.h"
 #include "scene/scene.h"
@@ -70,6 +71,9 @@ public:
     /// Parts of fewer triangles stay whole: they would be a single cluster or two.
     static constexpr std::size_t kSmallestPart = 2 * kMostTriangles;
 
+    /// Before the parts of a mesh.
+    void begin_mesh();
+
     /// Cuts a part and puts its indices in the order of its clusters; the triangles stay the same. A part too small is
     /// left as it is, with an empty range.
     /// @param indices      triangles, into `vertices`; every index is valid
@@ -102,10 +106,13 @@ public:
         float cutoff = 2.0F;
     };
     [[nodiscard]] const std::vector<Cone>& cones() const { return cones_; }
-    [[nodiscard]] const BoxList& boxes() const { return boxes_; }
-    /// Seven arrays, cone_stride() apart: apex x y z, axis x y z, cutoff.
-    [[nodiscard]] const float* cone_row(std::size_t which) const { return cone_rows_.data() + which * cone_stride_; }
-    [[nodiscard]] std::size_t cone_stride() const { return cone_stride_; }
+
+    /// Sixteen clusters next to each other, in cache lines that follow each other; a mesh begins with one.
+    struct Block {
+        BoxBlock boxes_object;
+        std::array<std::array<float, BoxBlock::kBoxes>, 7> cones{};  ///< axis x y z, cutoff, apex x y z
+    };
+    [[nodiscard]] const Block& block(std::size_t cluster) const { return blocks_[cluster / BoxBlock::kBoxes]; }
 
     /// A view in single precision, relative to its eye.
     struct View {
@@ -122,9 +129,7 @@ private:
     std::vector<scene::Bounds> bounds_;       ///< object space
     std::vector<Cone> cones_;                 ///< the same clusters
     std::vector<std::uint32_t> end_indices_;  ///< of each cluster in its part, where the next one begins
-    BoxList boxes_;
-    std::vector<float> cone_rows_;
-    std::size_t cone_stride_ = 0;
+    std::vector<Block> blocks_;
     View view_;
     glm::dvec3 eye_world_{0.0};
     double reveal_margin_m_ = 0.0;

@@ -76,6 +76,7 @@ void GpuScene::upload_meshes() {
 
 void GpuScene::cluster(const scene::Mesh& mesh, std::span<std::uint32_t> indices) {
     std::vector<ClusterRange>& ranges = clusters_of_primitives_.emplace_back();
+    clusters_->begin_mesh();
     for (const scene::Primitive& primitive : mesh.primitives) {
         SurfaceBatch batch;
         batch.material = primitive.material;

@@ -33,7 +33,7 @@ void append_worth_here(const WideBvh& tree, const WideBvh::Child& node, const fl
     const auto lanes = static_cast<std::uint32_t>(hn::Lanes(d));
     const std::uint32_t end = node.first + node.slot_count;
     for (std::uint32_t first = node.first; first < end; first += lanes) {
-        const BoxVector boxes = load_boxes(tree.boxes(), first);
+        const BoxVector boxes = load_boxes(tree.block(first).boxes, first % WideBvh::kMostChildren);
         const VF scores = scores_of(boxes, hn::LoadU(d, areas + first), query.eye_world);
         const MF wanted = hn::And(in_frustum(boxes, query.frustum, FloatFrustum::kAllPlanes),
                                   hn::Ge(scores, hn::Set(d, query.least_score)));
@@ -44,7 +44,7 @@ void append_worth_here(const WideBvh& tree, const WideBvh::Child& node, const fl
         hn::Store(scores, d, stored.data());
         for (; bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::uint32_t>(std::countr_zero(bits));
-            const WideBvh::Child& child = tree.children()[first + lane];
+            const WideBvh::Child& child = tree.child(first + lane);
             if (child.is_item() && child.first >= query.end) continue;
             candidates.emplace_back(stored[lane], first + lane);
         }

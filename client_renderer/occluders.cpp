@@ -108,10 +108,11 @@ void Occluders::index() {
     for (const Occluder& occluder : occluders_) bounds_.push_back(occluder.bounds_world);
     bvh_.emplace(bounds_, 8);
     tree_.emplace(*bvh_, bounds_);
-    // A vector of areas may begin at any slot, as one of boxes. Children come after their parents.
-    areas_.assign(tree_->boxes().size() + 4 * WideBvh::kMostChildren, 0.0F);
-    for (std::size_t slot = tree_->boxes().size(); slot-- > 0;) {
-        const WideBvh::Child& child = tree_->children()[slot];
+    // Children come after their parents.
+    areas_.assign(tree_->slot_count(), 0.0F);
+    for (auto slot = static_cast<std::uint32_t>(areas_.size()); slot-- > 0;) {
+        if (tree_->item_count(slot) == 0) continue;
+        const WideBvh::Child& child = tree_->child(slot);
         if (child.is_item()) {
             // A mover's box changes as it turns, by less than this.
             const float slack = child.first < static_count_ ? 1.0F : 2.0F;
@@ -130,8 +131,7 @@ void Occluders::fetch(const WideBvh::Child& child) const {
         fetch_lines(&bounds_[child.first]);
         return;
     }
-    for (int row = 0; row < 6; ++row) fetch_run(tree_->boxes().row(row) + child.first, child.slot_count);
-    fetch_run(tree_->children() + child.first, child.slot_count);
+    tree_->fetch(child);
     fetch_run(areas_.data() + child.first, child.slot_count);
 }
 
@@ -139,7 +139,7 @@ void Occluders::open(const OccluderQuery& query, const WideBvh::Child& node, con
     std::size_t end = candidates_.size();
     append_worth(*tree_, node, areas_.data(), query, buffer, candidates_);
     while (end < candidates_.size()) {
-        fetch(tree_->children()[candidates_[end].slot()]);
+        fetch(tree_->child(candidates_[end].slot()));
         ++end;
         std::push_heap(candidates_.begin(), candidates_.begin() + static_cast<std::ptrdiff_t>(end));
     }
@@ -159,7 +159,7 @@ std::size_t Occluders::draw(const Camera& camera, double margin_m, OcclusionBuff
     std::size_t drawn = 0;
     while (!candidates_.empty() && drawn < kMostDrawn) {
         std::pop_heap(candidates_.begin(), candidates_.end());
-        const WideBvh::Child& child = tree_->children()[candidates_.back().slot()];
+        const WideBvh::Child& child = tree_->child(candidates_.back().slot());
         candidates_.pop_back();
         if (!child.is_item()) {
             open(query, child, buffer);

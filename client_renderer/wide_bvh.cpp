@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "client_renderer/fetch_lines.h"
+
 namespace lw {
 
 namespace {
@@ -21,7 +23,6 @@ struct WideBvh::Builder {
     const scene::Bvh& bvh;
     std::span<const scene::Bounds> boxes;
     WideBvh& wide;
-    std::vector<scene::Bounds> bounds;  ///< by slot
 
     /// A node of `bvh`, or an item.
     struct Entry {
@@ -62,50 +63,53 @@ struct WideBvh::Builder {
             entries.erase(open);
             append_inside(opened, entries);
         }
-        const Child run{static_cast<std::uint32_t>(bounds.size()), static_cast<std::uint32_t>(entries.size())};
-        const std::size_t end = run.first + entries.size();
-        bounds.resize(end);
-        wide.children_.resize(end);
-        wide.item_counts_.resize(end, 1);
-        wide.first_items_.resize(end, 0);
+        const Child run{static_cast<std::uint32_t>(wide.slot_count()), static_cast<std::uint32_t>(entries.size())};
+        wide.blocks_.resize(wide.blocks_.size() + (entries.size() + kMostChildren - 1) / kMostChildren);
+        wide.first_items_.resize(wide.slot_count(), 0);
         for (std::uint32_t i = 0; i < run.slot_count; ++i) fill(run.first + i, entries[i]);
         return run;
     }
 
     void fill(std::uint32_t slot, const Entry& entry) {
         if (entry.is_item) {
-            wide.children_[slot] = {entry.index, 0};
+            put(slot, {entry.index, 0}, 1);
             wide.slots_of_items_[entry.index] = slot;
-            bounds[slot] = boxes[entry.index];
+            wide.set_box(slot, boxes[entry.index]);
             return;
         }
         wide.slots_of_nodes_[entry.index] = slot;
-        bounds[slot] = bounds_of(bvh.nodes()[entry.index]);
+        wide.set_box(slot, bounds_of(bvh.nodes()[entry.index]));
         wide.first_items_[slot] = bvh.first_item(entry.index);
-        wide.item_counts_[slot] = bvh.end_item(entry.index) - bvh.first_item(entry.index);
-        const Child inside = build(entry.index);  // may move the vectors
-        wide.children_[slot] = inside;
+        const Child inside = build(entry.index);  // may move the blocks
+        put(slot, inside, bvh.end_item(entry.index) - bvh.first_item(entry.index));
+    }
+
+    void put(std::uint32_t slot, const Child& child, std::uint32_t item_count) const {
+        Block& block = wide.blocks_[slot / kMostChildren];
+        block.children[slot % kMostChildren] = child;
+        block.item_counts[slot % kMostChildren] = item_count;
     }
 };
 
 WideBvh::WideBvh(const scene::Bvh& bvh, std::span<const scene::Bounds> boxes)
     : slots_of_items_(boxes.size(), kNone), slots_of_nodes_(bvh.nodes().size(), kNone) {
     if (bvh.empty()) return;
-    Builder builder{bvh, boxes, *this, {}};
+    Builder builder{bvh, boxes, *this};
     root_ = builder.build(scene::Bvh::kRoot);
-    boxes_.resize(builder.bounds.size());
-    for (std::size_t slot = 0; slot < builder.bounds.size(); ++slot) boxes_.set(slot, builder.bounds[slot]);
-    // A vector of counts may begin at any slot, as one of boxes.
-    item_counts_.resize(item_counts_.size() + kMostChildren * 4, 0);
+}
+
+void WideBvh::fetch(const Child& node) const {
+    const std::size_t count = (node.slot_count + kMostChildren - 1) / kMostChildren;
+    for (std::size_t i = 0; i < count; ++i) fetch_lines(&block(node.first) + i);
 }
 
 void WideBvh::move(const scene::Bvh& bvh, std::span<const std::uint32_t> moved, std::span<const scene::Bounds> boxes) {
     for (const std::uint32_t item : moved) {
         const std::uint32_t slot = slots_of_items_[item];
         if (slot == kNone) continue;
-        boxes_.set(slot, boxes[item]);
+        set_box(slot, boxes[item]);
         for (std::uint32_t node = bvh.leaf_of(item); node != kNone; node = bvh.parent(node)) {
-            if (slots_of_nodes_[node] != kNone) boxes_.set(slots_of_nodes_[node], bounds_of(bvh.nodes()[node]));
+            if (slots_of_nodes_[node] != kNone) set_box(slots_of_nodes_[node], bounds_of(bvh.nodes()[node]));
         }
     }
 }

@@ -21,11 +21,11 @@ struct BillboardFigures {
     std::size_t eligible = 0;
     double ssim_mean = 1.0;
     double ssim_min = 1.0;
-    /// Share of the frames in which warped quads are as near to the meshes as flat ones, updated as often, or nearer;
-    /// the share in which both pictures are equally near, which nearly always means equal; and how much SSIM is lost
-    /// where they are not as near.
+    /// Share of the frames in which warped quads are nearer to the meshes than flat ones drawn anew at the same times,
+    /// by the angles and by the error of warped ones, over all rates of the client; frames with nothing but fresh quads
+    /// do not count. And how much SSIM is lost where they are not nearer.
     double warped_better = 0.0;
-    double warped_equal = 0.0;
+    double warped_better_by_error = 0.0;
     double warped_loss = 0.0;
     double redraw_ratio = 0.0;         ///< redraws of warped to flat ones at the FLIP of flat ones with the default cap
     double redraw_ratio_beside = 0.0;  ///< the same on the walk to the side
@@ -36,6 +36,10 @@ struct BillboardFigures {
 
 /// Pure.
 [[nodiscard]] BillboardFigures figures_of(const BillboardBench& bench);
+
+/// Share of the frames of `points` in which warped quads are nearer, of those with quads that are not fresh; 0 without
+/// any. Pure.
+[[nodiscard]] double share_better(std::span<const LikenessPoint> points);
 
 /// The fewest redraws per frame with which one curve is as near to the truth as `flip`, by linear interpolation between
 /// its points in order of their redraws. Nothing where it never is. Pure.

@@ -64,6 +64,7 @@ public:
         Status status = run_path(bench.path);
         if (status.ok()) status = run_overview(bench.overview);
         if (status.ok()) status = run_sweeps(bench);
+        if (status.ok()) status = measure_likeness(stage_, quick_, bench);
         if (status.ok()) status = measure_flicker(stage_, quick_, bench);
         if (status.ok()) status = measure_still(stage_, quick_, bench);
         if (!status.ok()) return status.error();

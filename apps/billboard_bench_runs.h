@@ -12,7 +12,7 @@
 
 namespace lw {
 
-/// Quality of a frame against the meshes' frame.
+/// Quality of a frame against the meshes' frame. Frames are more than a second apart, so most quads are fresh.
 struct PathQuality {
     double time_s = 0.0;
     double ssim_flat = 1.0;    ///< flat quads, updated by the three angles
@@ -29,6 +29,26 @@ struct PathRun {
     std::array<std::size_t, kBillboardDimensions.size()> bytes{};  ///< of the last trial's atlases
 
     [[nodiscard]] const std::vector<TrialFrame>& ours() const { return trials.back().second; }
+};
+
+/// What decides when flat and warped quads are drawn anew, the same objects in the same frames.
+enum class PairSchedule : std::uint8_t { angles, warped_error };
+
+/// Flat and warped quads with the same redraws, in the frames of a client of one rate. Likeness is to the meshes.
+struct LikenessPoint {
+    PairSchedule schedule = PairSchedule::angles;
+    bool flat_blended = false;  ///< flat ones blend texels as warped ones do
+    double client_hz = 0.0;
+    int fresh = 0;             ///< frames in which all quads were drawn in this frame: exact, whatever the mode
+    int equal = 0;             ///< both equally near, and not all quads fresh
+    int better = 0;            ///< warped ones nearer
+    int worse = 0;             ///< flat ones nearer
+    double fresh_share = 0.0;  ///< of the quads, mean over frames
+    double ssim_flat = 0.0;    ///< means over frames
+    double ssim_warped = 0.0;
+    double worst_loss = 0.0;  ///< SSIM by which flat ones are nearer, at most
+
+    [[nodiscard]] int frames() const { return fresh + equal + better + worse; }
 };
 
 /// Meshes and ours alone, frame by frame as a client of 10 Hz draws them.
@@ -77,23 +97,28 @@ struct StillPoint {
 struct BillboardBench {
     PathRun path;
     PairRun overview;
-    std::vector<SweepPoint> caps;        ///< error caps and angles, on the dive
-    std::vector<SweepPoint> beside;      ///< the same on a walk to the side
-    std::vector<SweepPoint> thresholds;  ///< value: share of the scene's diagonal
-    std::vector<SweepPoint> budgets;     ///< value: milliseconds for updates in a frame; 0: no limit
-    SweepPoint meshes;                   ///< what the dive's meshes are like to antialiased ones
-    SweepPoint meshes_beside;            ///< and the walk's
-    std::vector<FlickerPoint> flicker;   ///< of updates while the eye moves
-    std::vector<StillPoint> still;       ///< by layout
-    std::vector<StillPoint> layouts;     ///< by layout, after a step to the side
-    std::vector<StillPoint> expansions;  ///< by way to make quads
-    std::vector<StillPoint> groups;      ///< touching objects apart and in groups, after a step to the side
-    std::vector<StillPoint> motions;     ///< flat and warped ones, after steps and turns
-    std::vector<StillPoint> depthless;   ///< flat ones with and without depth far away, after a step to the side
+    std::vector<LikenessPoint> likeness;  ///< flat against warped, by schedule and rate of the client
+    std::vector<SweepPoint> caps;         ///< error caps and angles, on the dive
+    std::vector<SweepPoint> beside;       ///< the same on a walk to the side
+    std::vector<SweepPoint> thresholds;   ///< value: share of the scene's diagonal
+    std::vector<SweepPoint> budgets;      ///< value: milliseconds for updates in a frame; 0: no limit
+    SweepPoint meshes;                    ///< what the dive's meshes are like to antialiased ones
+    SweepPoint meshes_beside;             ///< and the walk's
+    std::vector<FlickerPoint> flicker;    ///< of updates while the eye moves
+    std::vector<StillPoint> still;        ///< by layout
+    std::vector<StillPoint> layouts;      ///< by layout, after a step to the side
+    std::vector<StillPoint> expansions;   ///< by way to make quads
+    std::vector<StillPoint> groups;       ///< touching objects apart and in groups, after a step to the side
+    std::vector<StillPoint> motions;      ///< flat and warped ones, after steps and turns
+    std::vector<StillPoint> depthless;    ///< flat ones with and without depth far away, after a step to the side
 };
 
 /// `scene` is finished; a GL context is current. Progress on standard error unless quiet.
 [[nodiscard]] Result<BillboardBench> run_billboard_bench(const scene::Scene& scene, const Options& options);
+
+/// Fills likeness: in how many frames warped quads are nearer to the meshes than flat ones drawn anew at the same times
+/// (billboard_bench_likeness.cpp).
+[[nodiscard]] Status measure_likeness(const BillboardStage& stage, bool quick, BillboardBench& bench);
 
 /// Fills flicker: what cross-fades are worth (billboard_bench_flicker.cpp).
 [[nodiscard]] Status measure_flicker(const BillboardStage& stage, bool quick, BillboardBench& bench);

@@ -56,6 +56,8 @@ public:
     /// replaced. The picture stays until the next one.
     const ColourImage& draw_without_updates(const Camera& camera, int samples_per_axis);
 
+    /// Of the frame drawn last.
+    [[nodiscard]] const ColourImage& picture() const { return pixels_.colour; }
     [[nodiscard]] const std::string& label() const { return label_; }
     [[nodiscard]] const std::vector<TrialFrame>& frames() const { return frames_; }
     /// Bytes that the atlases take, by dimension; zero for meshes.

@@ -523,8 +523,14 @@ Result<std::unique_ptr<BillboardField>> BillboardField::create(const scene::Scen
                                                                const Clock* stage_clock) {
     auto atlas = BillboardAtlas::create(settings.format, settings.capacities);
     if (!atlas.ok()) return atlas.error();
-    auto pass = BillboardPass::create({settings.format, settings.expansion, settings.mode == BillboardMode::warped,
-                                       settings.fade_frames > 0, !scene.point_lights.empty()});
+    BillboardPassSettings pass_settings;
+    pass_settings.format = settings.format;
+    pass_settings.expansion = settings.expansion;
+    pass_settings.warped = settings.mode == BillboardMode::warped;
+    pass_settings.blended = pass_settings.warped || settings.blend_flat;
+    pass_settings.into_picture = settings.fade_frames > 0;
+    pass_settings.point_lights = !scene.point_lights.empty();
+    auto pass = BillboardPass::create(pass_settings);
     if (!pass.ok()) return pass.error();
     return std::unique_ptr<BillboardField>{
         std::make_unique<Field>(scene, painter, settings, stage_clock, std::move(*atlas), std::move(*pass))};

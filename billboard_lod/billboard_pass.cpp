@@ -35,6 +35,7 @@ Result<BillboardPass> BillboardPass::create(const BillboardPassSettings& setting
     pass.expansion_ = settings.expansion;
     std::string defines{defines_of(settings.format)};
     if (settings.warped) defines += "#define WARPED\n";
+    if (settings.blended) defines += "#define BLENDED\n";
     if (settings.expansion == QuadExpansion::instances) defines += "#define INSTANCED\n";
     auto surfaces = compile(settings.expansion, defines);
     if (!surfaces.ok()) return surfaces.error();

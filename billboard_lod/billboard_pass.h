@@ -32,6 +32,7 @@ struct BillboardPassSettings {
     AtlasFormat format = AtlasFormat::packed;
     QuadExpansion expansion = QuadExpansion::vertices;
     bool warped = true;         ///< relief along the pixel's ray, else flat quads
+    bool blended = true;        ///< what lies between two texels is between them, else the nearest one shows
     bool into_picture = false;  ///< draw_lit() will be called
     bool point_lights = false;  ///< the scene has some
 };

@@ -41,6 +41,8 @@ struct BillboardSettings {
     std::uint64_t min_triangles = 256;  ///< objects with fewer are drawn as fast as their quads
     /// Flat billboards beyond show no depth of their own, only their plane's: what a smaller texel without depth gives.
     double depthless_beyond_m = std::numeric_limits<double>::infinity();
+    /// Flat ones too blend each texel with the one beside it, as warped ones do: tells what relief is worth by itself.
+    bool blend_flat = false;
     bool group_touching = false;  ///< static objects whose boxes overlap share one billboard
     /// What a frame's updates replace is kept until the next one, so that withhold_updates() can show it. Takes slots.
     bool keep_replaced = false;

@@ -1,7 +1,9 @@
 #version 450 core
-// Copies a billboard's surface into the scene's G-buffer, or lights it for a picture (LIT), and corrects its depth. Flat: the quad's texel, as deep as it
-// was behind or before the plane. Warped: the texel that belongs here, found along the pixel's ray.
+// Copies a billboard's surface into the scene's G-buffer, or lights it for a picture (LIT), and corrects its depth.
+// Flat: the quad's texel, as deep as it was behind or before the plane. Warped: the texel that belongs here, found along
+// the pixel's ray. BLENDED: between it and the one beside it.
 #include "billboard_blocks.h"
+#include "billboards/blend_texels.glsl"
 #include "billboards/packed_surface.glsl"
 #ifdef LIT
 #include "client_blocks.h"
@@ -41,79 +43,119 @@ layout(location = 2) out vec4 o_emissive_metallic;
 layout(location = 3) out uint o_object_id;
 #endif
 
+// The inverse distance of a texel, counted from the slot's first one, from the eye that drew it; 0 where it is empty.
+float inverse_drawn_at(ivec2 texel) {
+    float stored = texelFetch(u_depth, ivec2(v_slot.xy) + texel, 0).r;
+    return stored == 0.0 ? 0.0 : stored * v_depth.x + v_depth.y;
+}
+
+StoredSurface surface_at(ivec2 texel) {
+    ivec2 place = ivec2(v_slot.xy) + texel;
+    StoredSurface s;
+#ifdef PACKED
+    unpack_surface(texelFetch(u_surface, place, 0).rg, s.albedo_roughness, s.normal, s.emissive_metallic);
+#elif defined(SHARED_COLOUR)
+    s.normal = texelFetch(u_normal, place, 0).rg;
+    split_colour(texelFetch(u_albedo_roughness, place, 0), texelFetch(u_emissive_metallic, place, 0).rg,
+                 s.albedo_roughness, s.emissive_metallic);
+#else
+    s.albedo_roughness = texelFetch(u_albedo_roughness, place, 0);
+    s.normal = texelFetch(u_normal, place, 0).rg;
+    s.emissive_metallic = texelFetch(u_emissive_metallic, place, 0);
+#endif
+    return s;
+}
+
+#ifdef BLENDED
+// Share of the depth by which two texels of one surface may differ: at a slant of 80 degrees and with texels of a third
+// of 2 mrad they do by 0.004.
+const float kSameDepth = 0.005;
+
+// What lies at `place` in `texel`, and its inverse distance.
+StoredSurface blended_at(ivec2 texel, vec2 place, inout float inverse_drawn) {
+    float share;
+    ivec2 other = texel_beside(texel, place, v_slot.zw, share);
+    float inverse_other = inverse_drawn_at(other);
+    if (abs(inverse_other - inverse_drawn) > kSameDepth * inverse_drawn) share = 0.0;
+    inverse_drawn += share * (inverse_other - inverse_drawn);
+    return blended(surface_at(texel), surface_at(other), share);
+}
+#endif
+
 #ifdef WARPED
+// The texel under the pixel's ray where that is at inverse distance q: with the texel at infinity, a, and how it moves,
+// b, it is (a + q b).xy / (a + q b).z, and the ray is q / (a + q b).z away from the eye that drew the billboard, in
+// inverse distance.
+vec2 place_at(float q) {
+    vec3 s = v_texel_from_ray + q * v_relief.xyz;
+    return s.xy / s.z;
+}
+
+float q_of(float inverse_drawn) {
+    return inverse_drawn * v_texel_from_ray.z / (1.0 - inverse_drawn * v_relief.z);
+}
+
 struct Candidate {
     ivec2 texel;
+    float inverse_drawn;
     float q;  // inverse distance at which the ray would meet the texel's surface; 0: there is none
 };
 
-// What the billboard holds where the pixel's ray is at inverse distance q. With the texel under the ray at infinity, a,
-// and how it moves, b: texel = (a + q b).xy / (a + q b).z, and the ray is q / (a + q b).z away from the eye that drew
-// the billboard, in inverse distance.
+// What the billboard holds where the ray is at inverse distance q.
 Candidate candidate_at(float q) {
-    vec3 a = v_texel_from_ray;
-    vec3 b = v_relief.xyz;
-    vec3 s = a + q * b;
-    vec2 place = floor(s.xy / s.z);
+    vec2 place = floor(place_at(q));
     vec2 inside = clamp(place, vec2(0.0), v_slot.zw - 1.0);
-    ivec2 texel = ivec2(v_slot.xy + inside);
-    float stored = texelFetch(u_depth, texel, 0).r;
-    float inverse_drawn = stored * v_depth.x + v_depth.y;
-    bool empty = stored == 0.0 || place != inside;
-    return Candidate(texel, empty ? 0.0 : inverse_drawn * a.z / (1.0 - inverse_drawn * b.z));
+    float inverse_drawn = inverse_drawn_at(ivec2(inside));
+    bool empty = inverse_drawn == 0.0 || place != inside;
+    return Candidate(ivec2(inside), inverse_drawn, empty ? 0.0 : q_of(inverse_drawn));
 }
 
 // Whether the ray is within the candidate's texel where it meets the texel's surface. There is one.
-bool meets_its_texel(Candidate candidate) {
-    vec3 s = v_texel_from_ray + candidate.q * v_relief.xyz;
-    return ivec2(v_slot.xy + floor(s.xy / s.z)) == candidate.texel;
-}
-#endif
+bool meets_its_texel(Candidate candidate) { return ivec2(floor(place_at(candidate.q))) == candidate.texel; }
 
-void read_surface(ivec2 texel, out vec4 albedo_roughness, out vec2 normal, out vec4 emissive_metallic) {
-#ifdef PACKED
-    unpack_surface(texelFetch(u_surface, texel, 0).rg, albedo_roughness, normal, emissive_metallic);
-#elif defined(SHARED_COLOUR)
-    normal = texelFetch(u_normal, texel, 0).rg;
-    split_colour(texelFetch(u_albedo_roughness, texel, 0), texelFetch(u_emissive_metallic, texel, 0).rg,
-                 albedo_roughness, emissive_metallic);
-#else
-    albedo_roughness = texelFetch(u_albedo_roughness, texel, 0);
-    normal = texelFetch(u_normal, texel, 0).rg;
-    emissive_metallic = texelFetch(u_emissive_metallic, texel, 0);
-#endif
+// The ray is followed from its nearest place on, half a texel at a time. What shows is a texel that lies where its own
+// surface crosses the ray: without that check whatever stands before something else grows by half a texel on each side.
+// Where the ray passes between two texels of one surface, before the one and behind the other, the second shows.
+Candidate followed() {
+    int steps = 2 * int(v_relief.w);
+    float q_step = (v_range.y - v_range.x) / float(steps);
+    float tolerance = 1.5 * abs(q_step);
+    Candidate hit = Candidate(ivec2(0), 0.0, 0.0);
+    Candidate before = hit;
+    for (int i = 0; i <= steps; ++i) {
+        float q_try = v_range.x + float(i) * q_step;
+        Candidate found = candidate_at(q_try);
+        bool between = before.q > 0.0 && abs(found.q - q_try) <= tolerance &&
+                       abs(before.q - (q_try - q_step)) <= tolerance;
+        if (hit.q == 0.0 && found.q > 0.0 && (between || meets_its_texel(found))) hit = found;
+        before = found;
+    }
+    return hit;
 }
+#endif
 
 void main() {
 #ifdef WARPED
-    // The ray is followed from its nearest place on. What shows is a texel that lies where its own surface crosses the
-    // ray: without that check whatever stands before something else grows by half a texel on each side.
-    int steps = int(v_relief.w);
-    float q_step = (v_range.y - v_range.x) / float(steps);
-    float tolerance = 0.75 * abs(q_step);
-    float q = 0.0;
-    ivec2 texel = ivec2(0);
-    for (int i = 0; i < steps; ++i) {
-        float q_try = v_range.x + (float(i) + 0.5) * q_step;
-        Candidate near_by = candidate_at(q_try);
-        Candidate found = candidate_at(near_by.q);
-        // Where depth moves nothing by more than a texel, the texel at mid depth is right but where the ray is in the
-        // other one at its surface. What is empty there stays empty: outlines must not grow.
-        if (steps == 1 && found.q > 0.0 && !meets_its_texel(found)) found = near_by;
-        bool hit = near_by.q > 0.0 && found.q > 0.0 && abs(near_by.q - q_try) <= tolerance &&
-                   abs(found.q - near_by.q) <= tolerance;
-        if (hit && q == 0.0) {
-            q = found.q;
-            texel = found.texel;
-        }
-    }
-    if (q <= 0.0) discard;
-    float depth = u_near_m * q;
+    Candidate hit = followed();
+    if (hit.q <= 0.0) discard;
+    ivec2 texel = hit.texel;
+    float inverse_drawn = hit.inverse_drawn;
+    vec2 place = place_at(hit.q);
 #else
-    ivec2 texel = ivec2(v_slot.xy + clamp(floor(v_texel), vec2(0.0), v_slot.zw - 1.0));
-    float stored = texelFetch(u_depth, texel, 0).r;
-    if (stored == 0.0) discard;
-    float distance_m = 1.0 / (stored * v_depth.x + v_depth.y) + v_depth.z;
+    ivec2 texel = ivec2(clamp(floor(v_texel), vec2(0.0), v_slot.zw - 1.0));
+    float inverse_drawn = inverse_drawn_at(texel);
+    if (inverse_drawn == 0.0) discard;
+    vec2 place = v_texel;
+#endif
+#ifdef BLENDED
+    StoredSurface shown = blended_at(texel, place, inverse_drawn);
+#else
+    StoredSurface shown = surface_at(texel);
+#endif
+#ifdef WARPED
+    float depth = u_near_m * q_of(inverse_drawn);
+#else
+    float distance_m = 1.0 / inverse_drawn + v_depth.z;
     if (distance_m < u_near_m) discard;
     float depth = u_near_m / distance_m;
 #endif
@@ -121,12 +163,10 @@ void main() {
     gl_FragDepth = depth * v_nearer;
     o_object_id = v_object_id;
 #ifdef LIT
-    vec4 albedo_roughness;
-    vec2 normal;
-    vec4 emissive_metallic;
-    read_surface(texel, albedo_roughness, normal, emissive_metallic);
-    o_colour = vec4(lit_surface(albedo_roughness, normal, emissive_metallic, depth), 1.0);
+    o_colour = vec4(lit_surface(shown.albedo_roughness, shown.normal, shown.emissive_metallic, depth), 1.0);
 #else
-    read_surface(texel, o_albedo_roughness, o_normal, o_emissive_metallic);
+    o_albedo_roughness = shown.albedo_roughness;
+    o_normal = shown.normal;
+    o_emissive_metallic = shown.emissive_metallic;
 #endif
 }

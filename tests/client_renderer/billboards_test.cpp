@@ -95,6 +95,55 @@ TEST_F(GlBillboards, FromWhereTheyWereDrawnShowWhatTheMeshesShow) {
     }
 }
 
+TEST_F(GlBillboards, FreshFlatAndWarpedOnesShowTheSame) {
+    const scene::Scene scene = few_chairs();
+    const Camera camera = outside(scene);
+    auto flat = make(scene, with_mode(BillboardMode::flat));
+    auto warped = make(scene, with_mode(BillboardMode::warped));
+    EXPECT_EQ(draw(*flat, camera).colour, draw(*warped, camera).colour) << "no texel is blended at its centre";
+}
+
+// A step by which depth moves no pixel by more than a tenth: what differs is how texels are chosen.
+TEST_F(GlBillboards, TexelsThatAreBlendedAreNearerToTheMeshes) {
+    const scene::Scene scene = few_chairs();
+    const Camera camera = outside(scene);
+    const Camera later = moved(camera, {0.03, 0.02, 0.0});
+    const auto likeness = [&](BillboardMode mode, bool blend_flat) {
+        BillboardSettings settings = with_mode(mode);
+        settings.error_cap_px = 1000.0;
+        settings.blend_flat = blend_flat;
+        auto renderer = make(scene, settings);
+        (void)draw(*renderer, camera);
+        const CpuPixels shown = draw(*renderer, later);
+        EXPECT_EQ(renderer->billboards()->counters().updated, 0U);
+        return ssim(draw_meshes(*renderer, later).colour, shown.colour);
+    };
+    const double nearest = likeness(BillboardMode::flat, false);
+    EXPECT_GT(likeness(BillboardMode::flat, true), nearest);
+    EXPECT_GT(likeness(BillboardMode::warped, false), nearest);
+}
+
+TEST_F(GlBillboards, ByTheErrorOfWarpedOnesBothModesAreDrawnAnewTogether) {
+    const scene::Scene scene = few_chairs();
+    std::vector<std::uint64_t> updates[3];
+    const std::pair<BillboardMode, UpdateCriterion> ways[] = {{BillboardMode::warped, UpdateCriterion::error},
+                                                              {BillboardMode::flat, UpdateCriterion::warped_error},
+                                                              {BillboardMode::flat, UpdateCriterion::error}};
+    for (std::size_t way = 0; way < std::size(ways); ++way) {
+        BillboardSettings settings = with_mode(ways[way].first);
+        settings.criterion = ways[way].second;
+        settings.error_cap_px = 0.5;
+        auto renderer = make(scene, settings);
+        for (int frame = 0; frame < 5; ++frame) {
+            (void)draw(*renderer, moved(outside(scene), {0.4 * frame, 0.0, 0.0}));
+            updates[way].push_back(renderer->billboards()->counters().updated);
+        }
+    }
+    EXPECT_GT(std::ranges::max(updates[0]), 0U);
+    EXPECT_EQ(updates[0], updates[1]);
+    EXPECT_NE(updates[0], updates[2]) << "flat ones by their own error";
+}
+
 TEST_F(GlBillboards, AllWaysToMakeQuadsGiveTheSamePicture) {
     const scene::Scene scene = few_chairs();
     const Camera camera = outside(scene);
@@ -411,7 +460,7 @@ Camera before_the_sky(const scene::Scene& scene) {
 TEST_F(GlBillboards, InTheMiddleOfAFadePixelsAreBetweenOldAndNew) {
     const scene::Scene scene = few_chairs();
     const Camera camera = before_the_sky(scene);
-    const Camera later = moved(camera, {0.5, 0.1, 0.0});
+    const Camera later = moved(camera, {0.8, 0.2, 0.0});
     for (const BillboardMode mode : {BillboardMode::flat, BillboardMode::warped}) {
         BillboardSettings settings = with_mode(mode);
         settings.error_cap_px = 1000.0;

@@ -13,16 +13,17 @@ namespace {
 
 constexpr int kUpdates = 256;
 constexpr double kCap_px = 2.0;
-/// Quads are made at the first camera, kUpdates a frame, then grow old for some frames that are not judged.
-constexpr int kFramesToMakeAll = 5;
-constexpr int kFramesBefore = 4;
+/// At the first camera of a stretch quads are made, or drawn anew where they are due, kUpdates a frame; then they grow
+/// old for some frames that are not judged.
+constexpr int kFramesToMakeAll = 4;
+constexpr int kFramesBefore = 3;
 
 struct Plan {
     glm::ivec2 size_px{1024, 1024};
-    std::vector<double> rates_hz{5.0, 10.0, 20.0, 30.0, 60.0};
+    std::vector<double> rates_hz{60.0, 30.0, 20.0, 10.0, 5.0};
     /// Slowly over the overview, down, and out: where billboards are many and the eye moves.
     std::vector<double> stretches_from_s{11.0, 22.0, 48.0};
-    int frames = 8;  ///< judged ones of a stretch
+    int frames = 5;  ///< judged ones of a stretch
 };
 
 Plan plan_of(bool quick) {
@@ -37,41 +38,53 @@ Plan plan_of(bool quick) {
 
 bool all_fresh(const BillboardCounters& counters) { return counters.created + counters.updated == counters.active; }
 
-/// The ways to draw of one schedule, in every frame of one rate.
+/// The ways to draw of one schedule, frame by frame beside each other.
 class Pair {
 public:
-    static Result<Pair> create(const BillboardStage& stage, PairSchedule schedule, double client_hz) {
-        auto flat = stage.trial("flat", settings_of(BillboardMode::flat, schedule, false));
-        if (!flat.ok()) return flat.error();
-        auto blended = stage.trial("flat, blended", settings_of(BillboardMode::flat, schedule, true));
-        if (!blended.ok()) return blended.error();
+    /// `with_blended`: flat quads that blend texels are compared with too.
+    static Result<Pair> create(const BillboardStage& stage, PairSchedule schedule, bool with_blended) {
         auto warped = stage.trial("warped", settings_of(BillboardMode::warped, schedule, false));
         if (!warped.ok()) return warped.error();
-        Pair pair{std::move(*flat), std::move(*blended), std::move(*warped)};
-        for (const bool is_blended : {false, true}) {
-            LikenessPoint& point = pair.points_[is_blended ? 1 : 0];
-            point.schedule = schedule;
-            point.flat_blended = is_blended;
-            point.client_hz = client_hz;
+        Pair pair{std::move(*warped), schedule};
+        for (const bool blended : {false, true}) {
+            if (blended && !with_blended) continue;
+            auto flat = stage.trial("flat", settings_of(BillboardMode::flat, schedule, blended));
+            if (!flat.ok()) return flat.error();
+            pair.flat_.push_back(std::move(*flat));
         }
         return pair;
     }
 
     void draw(const Camera& camera) {
-        for (BillboardTrial* trial : {&flat_, &blended_, &warped_}) (void)trial->draw(camera, 0.0);
+        (void)warped_.draw(camera, 0.0);
+        for (BillboardTrial& trial : flat_) (void)trial.draw(camera, 0.0);
     }
 
-    void judge(const Camera& camera, const ColourImage& meshes) {
-        const double likeness = ssim(meshes, warped_.draw(camera, 0.0));
-        add(ssim(meshes, flat_.draw(camera, 0.0)), likeness, points_[0]);
-        add(ssim(meshes, blended_.draw(camera, 0.0)), likeness, points_[1]);
+    /// Draws too. Adds to the points of that rate.
+    void judge(const Camera& camera, const ColourImage& meshes, double client_hz) {
+        draw(camera);
+        const double likeness = ssim(meshes, warped_.picture());
+        for (std::size_t i = 0; i < flat_.size(); ++i) {
+            add(ssim(meshes, flat_[i].picture()), likeness, point_at(i == 1, client_hz));
+        }
     }
 
-    [[nodiscard]] const std::array<LikenessPoint, 2>& points() const { return points_; }
+    [[nodiscard]] const std::vector<LikenessPoint>& points() const { return points_; }
 
 private:
-    Pair(BillboardTrial flat, BillboardTrial blended, BillboardTrial warped)
-        : flat_{std::move(flat)}, blended_{std::move(blended)}, warped_{std::move(warped)} {}
+    Pair(BillboardTrial warped, PairSchedule schedule) : warped_{std::move(warped)}, schedule_{schedule} {}
+
+    LikenessPoint& point_at(bool flat_blended, double client_hz) {
+        const auto found = std::ranges::find_if(points_, [&](const LikenessPoint& point) {
+            return point.flat_blended == flat_blended && point.client_hz == client_hz;
+        });
+        if (found != points_.end()) return *found;
+        LikenessPoint point;
+        point.schedule = schedule_;
+        point.flat_blended = flat_blended;
+        point.client_hz = client_hz;
+        return points_.emplace_back(point);
+    }
 
     static BillboardSettings settings_of(BillboardMode mode, PairSchedule schedule, bool blend_flat) {
         BillboardSettings settings = by_angles(mode, kUpdates);
@@ -104,25 +117,26 @@ private:
         }
     }
 
-    BillboardTrial flat_;
-    BillboardTrial blended_;
     BillboardTrial warped_;
-    std::array<LikenessPoint, 2> points_;
+    PairSchedule schedule_;
+    std::vector<BillboardTrial> flat_;  ///< as they are, then with blended texels
+    std::vector<LikenessPoint> points_;
 };
 
-/// One stretch of the flight, the meshes drawn once for all pairs.
-void fly(const std::vector<Camera>& cameras, BillboardTrial& meshes, std::vector<Pair>& pairs) {
+/// A stretch at one rate, the meshes drawn once for all pairs.
+void fly(const std::vector<Camera>& cameras, double client_hz, BillboardTrial& meshes, std::vector<Pair>& pairs) {
     for (Pair& pair : pairs) {
         for (int k = 0; k < kFramesToMakeAll; ++k) pair.draw(cameras.front());
     }
-    for (std::size_t k = 1; k < cameras.size(); ++k) {
+    for (int k = 1; k < static_cast<int>(cameras.size()); ++k) {
+        const Camera& camera = cameras[static_cast<std::size_t>(k)];
         const bool judged = k > kFramesBefore;
-        if (judged) (void)meshes.draw(cameras[k], 0.0);
+        if (judged) (void)meshes.draw(camera, 0.0);
         for (Pair& pair : pairs) {
             if (judged) {
-                pair.judge(cameras[k], meshes.picture());
+                pair.judge(camera, meshes.picture(), client_hz);
             } else {
-                pair.draw(cameras[k]);
+                pair.draw(camera);
             }
         }
     }
@@ -134,23 +148,24 @@ Status measure_likeness(const BillboardStage& stage, bool quick, BillboardBench&
     const Plan plan = plan_of(quick);
     auto meshes = stage.trial("meshes", {});
     if (!meshes.ok()) return meshes.error();
+    std::vector<Pair> pairs;
+    for (const PairSchedule schedule : {PairSchedule::angles, PairSchedule::warped_error}) {
+        auto pair = Pair::create(stage, schedule, schedule == PairSchedule::angles);
+        if (!pair.ok()) return pair.error();
+        pairs.push_back(std::move(*pair));
+    }
     Progress progress{"billboards: likeness", plan.rates_hz.size() * plan.stretches_from_s.size(), stage.quiet()};
     std::uint64_t done = 0;
-    for (const double client_hz : plan.rates_hz) {
-        std::vector<Pair> pairs;
-        for (const PairSchedule schedule : {PairSchedule::angles, PairSchedule::warped_error}) {
-            auto pair = Pair::create(stage, schedule, client_hz);
-            if (!pair.ok()) return pair.error();
-            pairs.push_back(std::move(*pair));
-        }
-        const double step_s = 1.0 / client_hz;
-        for (const double from_s : plan.stretches_from_s) {
-            const double to_s = from_s + (1 + kFramesBefore + plan.frames - 0.5) * step_s;
-            fly(stage.cameras(from_s, to_s, step_s, plan.size_px), *meshes, pairs);
+    for (const double from_s : plan.stretches_from_s) {
+        for (const double client_hz : plan.rates_hz) {
+            const double step_s = 1.0 / client_hz;
+            const double to_s = from_s + (kFramesBefore + plan.frames + 0.5) * step_s;
+            fly(stage.cameras(from_s, to_s, step_s, plan.size_px), client_hz, *meshes, pairs);
             progress.show(++done);
         }
-        for (const Pair& pair : pairs)
-            bench.likeness.insert(bench.likeness.end(), pair.points().begin(), pair.points().end());
+    }
+    for (const Pair& pair : pairs) {
+        bench.likeness.insert(bench.likeness.end(), pair.points().begin(), pair.points().end());
     }
     return Done{};
 }

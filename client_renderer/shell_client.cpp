@@ -15,6 +15,13 @@ constexpr std::size_t kMostShells = 4;
 constexpr int kProbePx = 64;
 // A part of the display is looked at by so many squared directions.
 constexpr int kDisplayProbes = 8;
+// What a view will cover is looked up in so many squared directions.
+constexpr int kCoverageProbes = 24;
+// One side of the view at a time: where what is near has shifted by no more since the other one was drawn, the head
+// turns no farther while a frame is shown, and all of what will be seen but so much is on one of the two.
+constexpr double kMostShift_tan = 0.1;
+constexpr double kMostTurned_rad = 0.1;
+constexpr double kMostLeftOpen = 0.04;
 // Of the budget: the view is drawn less finely where it would take more, outer tiles with fewer samples. Tiles that are
 // worth more than a denser view get so much of it at most.
 constexpr double kMostForTheView = 0.93;
@@ -61,6 +68,15 @@ glm::dvec3 direction_at(const Camera& camera, double x, double y) {
     const FovTangents& fov = camera.fov;
     const glm::dvec3 ray{glm::mix(fov.left, fov.right, x), glm::mix(fov.up, fov.down, y), -1.0};
     return camera.world_from_eye.orientation * ray;
+}
+
+// Of two views at one pose, one of which holds the other.
+double share_of(const Camera& part, const Camera& whole) {
+    return (part.fov.right - part.fov.left) / (whole.fov.right - whole.fov.left);
+}
+
+double turned_rad(const Pose& from, const Pose& to) {
+    return 2.0 * std::acos(std::min(std::abs(glm::dot(from.orientation, to.orientation)), 1.0));
 }
 
 Camera at_pose(Camera camera, const Pose& pose) {
@@ -121,16 +137,42 @@ int ShellClient::samples_of(std::size_t item) const {
 
 // What the view costs, and how finely everything is drawn.
 
+// Both sides of it, in the display's pixels.
+Camera ShellClient::whole_view(const ViewPlan& plan, const ShellMoment& moment) const {
+    return at_pose(extended(display_, extent_.scaled(plan.extent_share)), moment.shown_middle);
+}
+
 Camera ShellClient::view_camera(const ViewPlan& plan, const ShellMoment& moment) const {
-    Camera camera = extended(display_, extent_.scaled(plan.extent_share));
+    Camera camera = whole_view(plan, moment);
+    if (plan.one_side) camera = side_of(camera, next_side_, items_[kView].layer->camera, near_m_);
     const double density = source_.density * plan.density;
     camera.size_px = {std::lround(density * camera.size_px.x), std::lround(density * camera.size_px.y)};
-    return at_pose(camera, moment.shown_middle);
+    return camera;
 }
 
 double ShellClient::expected_view_ms(const ViewPlan& plan, const ShellMoment& moment) const {
-    return view_costs_.expected_ms(
-        plan, pixel_count(view_camera(plan, moment)) * source_.samples_per_axis * source_.samples_per_axis);
+    const Camera view = view_camera(plan, moment);
+    ViewCosts::Planned planned{pixel_count(view) * source_.samples_per_axis * source_.samples_per_axis};
+    planned.share = share_of(view, whole_view(plan, moment));
+    planned.covered = plan.one_side ? side_covered_ : whole_covered_;
+    return view_costs_.expected_ms(plan, planned);
+}
+
+// The share of a view that shows a surface, as far as the last pictures tell.
+std::optional<double> ShellClient::known_coverage(const Camera& view) const {
+    int known = 0;
+    int covered = 0;
+    for (int y = 0; y < kCoverageProbes; ++y) {
+        for (int x = 0; x < kCoverageProbes; ++x) {
+            const auto depth =
+                seen_by_view(direction_at(view, (x + 0.5) / kCoverageProbes, (y + 0.5) / kCoverageProbes));
+            if (!depth) continue;
+            ++known;
+            covered += *depth > 0.0F ? 1 : 0;
+        }
+    }
+    if (2 * known < kCoverageProbes * kCoverageProbes) return std::nullopt;
+    return static_cast<double>(covered) / known;
 }
 
 double ShellClient::expected_ms(std::size_t item, const ShellMoment& moment) const {
@@ -142,20 +184,59 @@ double ShellClient::expected_tile_ms(std::size_t item) const { return costs_.exp
 // Beyond it lie nine tenths of what the last view held.
 double ShellClient::near_in_view_m() const {
     std::vector<double> seen_m = items_[kView].statistics.ray_m;
+    const std::vector<double>& beside_m = other_side_.statistics.ray_m;
+    seen_m.insert(seen_m.end(), beside_m.begin(), beside_m.end());
     if (seen_m.empty()) return ranges_.front().farthest_m;
     const auto at = seen_m.begin() + static_cast<std::ptrdiff_t>(kNearShare * static_cast<double>(seen_m.size()));
     std::nth_element(seen_m.begin(), at, seen_m.end());
     return *at;
 }
 
+// Whether the last picture of the view may be shown for another frame. That of the warm-up is coarse.
+bool ShellClient::older_side_will_do(const ShellMoment& moment) const {
+    const Item& last = items_[kView];
+    const bool is_of_warm_up = records_.empty() || last.drawn_s <= records_.front().now_s;
+    if (is_of_warm_up || last.layer == nullptr || last.outdated) return false;
+    const double moved_m = glm::distance(moment.shown_until.position_m, last.layer->camera.world_from_eye.position_m);
+    return moved_m <= kMostShift_tan * near_m_;
+}
+
+// Where sides are drawn, each is shown for two frames.
 void ShellClient::plan_extent(const ShellMoment& moment) {
-    const ViewMotion motion{moment.shown_middle, moment.shown_from, moment.shown_until, near_in_view_m()};
-    extent_ = next_extent(display_, motion, extent_);
+    near_m_ = near_in_view_m();
+    const Pose later = gone_on(moment.shown_from, moment.shown_until);
+    const bool is_calm = glm::distance(moment.shown_middle.position_m, later.position_m) <= kMostShift_tan * near_m_ &&
+                         turned_rad(moment.shown_from, moment.shown_until) <= kMostTurned_rad;
+    const Pose& until = is_calm ? later : moment.shown_until;
+    extent_ = next_extent(display_, {moment.shown_middle, moment.shown_from, until, near_m_}, extent_);
+    const Camera whole = whole_view({}, moment);
+    next_side_ = is_calm && older_side_will_do(moment) ? least_open_side(whole, moment) : ViewSide::whole;
+    // Of two wholes the one covers as much as the other.
+    whole_covered_ = side_ != ViewSide::whole ? known_coverage(whole) : std::nullopt;
+    if (next_side_ == ViewSide::whole) return;
+    side_covered_ = known_coverage(side_of(whole, next_side_, items_[kView].layer->camera, near_m_));
+}
+
+// Not the one that was drawn last.
+ViewSide ShellClient::least_open_side(const Camera& whole, const ShellMoment& moment) const {
+    const Camera& other = items_[kView].layer->camera;
+    const Pose shown[] = {moment.shown_from, moment.shown_middle, moment.shown_until};
+    ViewSide least = ViewSide::whole;
+    double least_open = kMostLeftOpen;
+    for (const ViewSide side : {ViewSide::left, ViewSide::right}) {
+        if (side == side_) continue;
+        const double open = share_left_open(whole, side_of(whole, side, other, near_m_), other, display_, shown);
+        if (open > least_open) continue;
+        least_open = open;
+        least = side;
+    }
+    return least;
 }
 
 void ShellClient::plan_view(const ShellMoment& moment, double most_ms) {
     for (const ViewPlan& plan : view_plans()) {
         if (plan.hidden && source_.layers < 2) continue;
+        if (plan.one_side && next_side_ == ViewSide::whole) continue;
         plan_ = plan;
         if (expected_view_ms(plan, moment) <= most_ms) return;
     }
@@ -217,6 +298,7 @@ void ShellClient::set_ranges(std::span<const double> distances_m, const ShellMom
         items_[item].outdated = true;
         if (item >= item_count()) items_[item] = {};
     }
+    other_side_ = {};
 }
 
 // After a walk through half of the nearest shell, from what the items hold: no picture is drawn for it.
@@ -257,15 +339,18 @@ double ShellClient::budget_ms(const ShellMoment& moment) const {
 
 // What is expected of an item.
 
-bool ShellClient::hidden_by_view(const glm::dvec3& direction_world) const {
-    const Layer* view = items_[kView].layer.get();
-    if (view == nullptr || !sees(view->camera, direction_world)) return false;
-    const glm::dvec3 ray = glm::conjugate(view->camera.world_from_eye.orientation) * direction_world;
-    const FovTangents& fov = view->camera.fov;
-    const glm::ivec2 size_px = view->camera.size_px;
-    const int x = static_cast<int>((ray.x / -ray.z - fov.left) / (fov.right - fov.left) * size_px.x);
-    const int y = static_cast<int>((fov.up - ray.y / -ray.z) / (fov.up - fov.down) * size_px.y);
-    return view->cpu().depth.at(std::clamp(x, 0, size_px.x - 1), std::clamp(y, 0, size_px.y - 1)) > 0.0F;
+// The depth there, of the newest picture that looks there.
+std::optional<float> ShellClient::seen_by_view(const glm::dvec3& direction_world) const {
+    for (const Layer* view : {items_[kView].layer.get(), other_side_.layer.get()}) {
+        if (view == nullptr || !sees(view->camera, direction_world)) continue;
+        const glm::dvec3 ray = glm::conjugate(view->camera.world_from_eye.orientation) * direction_world;
+        const FovTangents& fov = view->camera.fov;
+        const glm::ivec2 size_px = view->camera.size_px;
+        const int x = static_cast<int>((ray.x / -ray.z - fov.left) / (fov.right - fov.left) * size_px.x);
+        const int y = static_cast<int>((fov.up - ray.y / -ray.z) / (fov.up - fov.down) * size_px.y);
+        return view->cpu().depth.at(std::clamp(x, 0, size_px.x - 1), std::clamp(y, 0, size_px.y - 1));
+    }
+    return std::nullopt;
 }
 
 void ShellClient::judge_visibility(std::size_t item, const ShellMoment& moment, ItemOutlook& outlook) const {
@@ -276,7 +361,7 @@ void ShellClient::judge_visibility(std::size_t item, const ShellMoment& moment, 
     }
     const Camera views[] = {at_pose(display_, moment.shown_from), at_pose(display_, moment.shown_middle),
                             at_pose(display_, moment.shown_until)};
-    const Camera view = camera_of(kView, moment);
+    const Camera view = whole_view(plan_, moment);
     const bool nearest_shell = shell_of(item) == 0;
     int visible = 0;
     double least_cosine_angle = -1.0;
@@ -284,7 +369,8 @@ void ShellClient::judge_visibility(std::size_t item, const ShellMoment& moment, 
         const bool seen =
             std::any_of(std::begin(views), std::end(views), [&](const Camera& c) { return sees(c, direction); });
         // The nearest shell's tiles stand in where its view ends, the others where it has nothing.
-        const bool shown_by_view = nearest_shell ? sees(view, direction) : hidden_by_view(direction);
+        const bool shown_by_view =
+            nearest_shell ? sees(view, direction) : seen_by_view(direction).value_or(0.0F) > 0.0F;
         if (!seen || shown_by_view) continue;
         ++visible;
         least_cosine_angle = std::max(least_cosine_angle, glm::dot(direction, forward));
@@ -295,7 +381,6 @@ void ShellClient::judge_visibility(std::size_t item, const ShellMoment& moment, 
 }
 
 double ShellClient::share_beyond_view(const ShellMoment& moment) const {
-    const Camera& drawn = items_[kView].layer->camera;
     int beyond = 0;
     for (const Pose& pose : {moment.shown_middle, moment.shown_until}) {
         const Camera display = at_pose(display_, pose);
@@ -303,17 +388,30 @@ double ShellClient::share_beyond_view(const ShellMoment& moment) const {
             for (int x = 0; x < kDisplayProbes; ++x) {
                 const glm::dvec3 direction =
                     direction_at(display, (x + 0.5) / kDisplayProbes, (y + 0.5) / kDisplayProbes);
-                beyond += sees(drawn, direction) ? 0 : 1;
+                beyond += seen_by_view(direction) ? 0 : 1;
             }
         }
     }
     return beyond / (2.0 * kDisplayProbes * kDisplayProbes);
 }
 
-ItemOutlook ShellClient::outlook(std::size_t index, const ShellMoment& moment) const {
-    const Item& item = items_[index];
+// Of the view's two sides the one that is more wrong.
+PredictedError ShellClient::predicted(std::size_t index, const ShellMoment& moment, ItemOutlook& worst) const {
+    worst = outlook(index, items_[index], moment);
+    const PredictedError error = predicted_error(worst, settings_.weights);
+    if (index != kView || other_side_.layer == nullptr) return error;
+    const ItemOutlook other = outlook(index, other_side_, moment);
+    const PredictedError other_error = predicted_error(other, settings_.weights);
+    if (other_error.sum() <= error.sum()) return error;
+    worst = other;
+    return other_error;
+}
+
+// `item` as it was drawn: items_[index], or the view's other side.
+ItemOutlook ShellClient::outlook(std::size_t index, const Item& item, const ShellMoment& moment) const {
     ItemOutlook outlook;
     outlook.display_px = index == kView ? pixel_count(display_) : tiles_.display_pixels();
+    if (index == kView && other_side_.layer != nullptr) outlook.display_px *= 0.5;
     judge_visibility(index, moment, outlook);
     outlook.is_view = index == kView;
     outlook.drawn = item.layer != nullptr && !item.outdated;
@@ -348,6 +446,15 @@ double ShellClient::guessed_cost_ms(std::size_t item) const {
 
 // Drawing.
 
+// Keeps what the other side is shown from, and says what share of the view `layer` is.
+double ShellClient::begin_view(Layer& layer, const ShellMoment& moment) {
+    other_side_ = plan_.one_side ? std::move(items_[kView]) : Item{};
+    items_[kView] = {};
+    side_ = plan_.one_side ? next_side_ : ViewSide::whole;
+    if (side_ != ViewSide::whole) layer.name += side_ == ViewSide::left ? "-left" : "-right";
+    return share_of(layer.camera, whole_view(plan_, moment));
+}
+
 double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
     const TimePoint begin = settings_.clock != nullptr ? settings_.clock->now() : TimePoint{};
     std::shared_ptr<Layer> layer = pool_.acquire();
@@ -365,11 +472,11 @@ double ShellClient::draw_item(std::size_t index, const ShellMoment& moment) {
     drawn.samples = pixel_count(layer->camera) * samples * samples;
     renderer_.mover_placements(layer->scene_time_s, layer->movers);
     Item& item = items_[index];
+    if (index == kView) drawn.share = begin_view(*layer, moment);
     item.statistics = statistics_of(*layer);
     layer->content = {static_cast<std::uint32_t>(index), static_cast<std::uint16_t>(shell_of(index)),
                       item.statistics.mover_px == 0.0, item.statistics.nearest_depth, item.statistics.nearest_ray_m};
     drawn.covered = item.statistics.surface_px * samples * samples;
-    if (index == kView) item.hidden = nullptr;
     if (index == kView && source_.layers == 2 && plan_.hidden) {
         const std::shared_ptr<Layer> hidden = draw_hidden(*layer, moment);
         add(counters_, renderer_.counters());
@@ -398,6 +505,7 @@ std::shared_ptr<Layer> ShellClient::draw_hidden(const Layer& first, const ShellM
     std::shared_ptr<Layer> hidden = pool_.acquire();
     draw_hidden_layer(renderer_, first, source_.samples_per_axis, moment.head_motion_m, *hidden, part_of(kView));
     hidden->content.item = kView;
+    hidden->name = first.name + "-hidden";
     if (prepare_) prepare_(hidden);
     return hidden;
 }
@@ -434,8 +542,8 @@ std::vector<std::shared_ptr<const Layer>> ShellClient::draw(const ShellMoment& m
     std::vector<DrawCandidate> candidates(item_count());
     std::vector<PredictedError> errors(item_count());
     const auto judge = [&](std::size_t i) {
-        const ItemOutlook item = outlook(i, moment);
-        errors[i] = predicted_error(item, settings_.weights);
+        ItemOutlook item;
+        errors[i] = predicted(i, moment, item);
         // What nobody sees may wait.
         const double waiting_s = item.visible_share > 0.0 ? item.age_s : 0.0;
         candidates[i] = {i, errors[i].sum() * error_weight(item, settings_.weights), expected_ms(i, moment), waiting_s};
@@ -475,6 +583,9 @@ bool ShellClient::is_shown(std::size_t index) const {
 std::vector<std::shared_ptr<const Layer>> ShellClient::layers() const {
     std::vector<std::shared_ptr<const Layer>> layers{items_[kView].layer};
     if (items_[kView].hidden != nullptr) layers.push_back(items_[kView].hidden);
+    for (const auto& older : {other_side_.layer, other_side_.hidden}) {
+        if (older != nullptr) layers.push_back(older);
+    }
     const std::size_t first_outer = 1 + static_cast<std::size_t>(tiles_.count());
     const auto append = [&](std::size_t first, std::size_t end) {
         for (std::size_t i = first; i < end; ++i) {

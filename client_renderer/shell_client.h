@@ -21,6 +21,7 @@
 #include "client_renderer/source_camera.h"
 #include "client_renderer/view_extent.h"
 #include "client_renderer/view_plan.h"
+#include "client_renderer/view_sides.h"
 #include "core/clock.h"
 #include "frame_link/hole_feedback.h"
 
@@ -109,11 +110,15 @@ private:
     [[nodiscard]] int samples_of(std::size_t item) const;
 
     [[nodiscard]] double near_in_view_m() const;
+    [[nodiscard]] bool older_side_will_do(const ShellMoment& moment) const;
+    [[nodiscard]] ViewSide least_open_side(const Camera& whole, const ShellMoment& moment) const;
     void plan_extent(const ShellMoment& moment);
     void plan_view(const ShellMoment& moment, double most_ms);
     [[nodiscard]] double needed_by_tiles_ms(std::span<const DrawCandidate> tiles, const BudgetSettings& budget) const;
     void choose_outer_quality(double budget_ms);
+    [[nodiscard]] Camera whole_view(const ViewPlan& plan, const ShellMoment& moment) const;
     [[nodiscard]] Camera view_camera(const ViewPlan& plan, const ShellMoment& moment) const;
+    [[nodiscard]] std::optional<double> known_coverage(const Camera& view) const;
     [[nodiscard]] double expected_view_ms(const ViewPlan& plan, const ShellMoment& moment) const;
     [[nodiscard]] double expected_ms(std::size_t item, const ShellMoment& moment) const;
     [[nodiscard]] double expected_tile_ms(std::size_t item) const;
@@ -124,12 +129,14 @@ private:
     [[nodiscard]] double budget_ms(const ShellMoment& moment) const;
     [[nodiscard]] std::vector<double> distances_around(const ShellMoment& moment);
 
-    [[nodiscard]] ItemOutlook outlook(std::size_t item, const ShellMoment& moment) const;
+    [[nodiscard]] PredictedError predicted(std::size_t item, const ShellMoment& moment, ItemOutlook& outlook) const;
+    [[nodiscard]] ItemOutlook outlook(std::size_t item, const Item& drawn, const ShellMoment& moment) const;
     void judge_visibility(std::size_t item, const ShellMoment& moment, ItemOutlook& outlook) const;
-    [[nodiscard]] bool hidden_by_view(const glm::dvec3& direction_world) const;
+    [[nodiscard]] std::optional<float> seen_by_view(const glm::dvec3& direction_world) const;
     [[nodiscard]] double share_beyond_view(const ShellMoment& moment) const;
     [[nodiscard]] double guessed_cost_ms(std::size_t item) const;
 
+    double begin_view(Layer& layer, const ShellMoment& moment);
     double draw_item(std::size_t item, const ShellMoment& moment);
     std::shared_ptr<Layer> draw_hidden(const Layer& first, const ShellMoment& moment);
     [[nodiscard]] bool is_shown(std::size_t item) const;
@@ -152,7 +159,13 @@ private:
     ViewPlan plan_;                ///< of the same
     ViewCosts view_costs_;
     double saved_for_tiles_ms_ = 0.0;
+    double near_m_ = 1.0;                   ///< near_in_view_m()
+    ViewSide next_side_ = ViewSide::whole;  ///< that may be drawn now; whole: none
+    std::optional<double> whole_covered_;   ///< share of the view, and of next_side_, that will show a surface
+    std::optional<double> side_covered_;
     std::vector<Item> items_;
+    Item other_side_;  ///< what the view's other side is shown from; null where items_[kView] is the whole
+    ViewSide side_ = ViewSide::whole;  ///< that items_[kView] is
     CostBook costs_;
     double main_view_triangles_ = 0.0;     ///< of one view of everything, at the start
     double main_view_covered_ = 1.0;       ///< share of its pixels that show a surface

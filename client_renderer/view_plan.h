@@ -12,12 +12,13 @@ struct ViewPlan {
     double density = 1.0;       ///< times the source's density
     bool hidden = true;         ///< with a hidden layer
     double extent_share = 1.0;  ///< of what is needed around the display (view_extent.h)
+    bool one_side = false;      ///< the other one is shown from the frame before (view_sides.h)
 };
 
 /// From best to cheapest. All that the eye is expected to see comes first: past the view's edge older tiles of the
 /// shell stand in. Then density: of a walk through `city` 1.5 takes a fifth of FLIP off, and 2 three tenths
 /// (`replay city --trace walk --source-density`); so what the view hides is left to older tiles where it would cost
-/// that.
+/// that. One side at a time is as good as the whole where that may be drawn at all, and denser.
 [[nodiscard]] std::span<const ViewPlan> view_plans();
 
 /// What plans will cost, from what the last view held. One thread.
@@ -34,17 +35,23 @@ public:
         double covered = 0.0;  ///< samples that show a surface
         std::optional<double> hidden_triangles{};
         double hidden_covered = 0.0;
+        double share = 1.0;  ///< of the view that was drawn
     };
     void learn(const Drawn& view, double cost_ms);
 
-    /// @param samples  of one layer
-    [[nodiscard]] double expected_ms(const ViewPlan& plan, double samples) const;
+    /// What will be drawn of a view.
+    struct Planned {
+        double samples = 0.0;             ///< of one layer
+        double share = 1.0;               ///< of the view
+        std::optional<double> covered{};  ///< share of the samples that will show a surface; nothing: as before
+    };
+    [[nodiscard]] double expected_ms(const ViewPlan& plan, const Planned& view) const;
 
     /// What the view that was drawn is modelled to cost.
     [[nodiscard]] static double modelled_ms(const Drawn& view);
 
 private:
-    [[nodiscard]] double predicted_ms(bool hidden, double samples) const;
+    [[nodiscard]] double predicted_ms(bool hidden, const Planned& planned) const;
 
     double triangles_ = 0.0;
     double covered_ = 1.0;  // shares of the samples

@@ -32,8 +32,8 @@ bool is_beside_view(const Layer& layer, const Layer& view) {
     return layer.content.shell == 0 && layer.content.item != view.content.item;
 }
 
-ViewCover cover_of(const Layer& view, const Camera& target) {
-    return {background_source_from_target(view.camera, target), view.camera.size_px};
+bool is_side_of(const Layer& layer, const Layer& view) {
+    return &layer != &view && layer.content.shell == 0 && layer.content.item == view.content.item;
 }
 
 // A view that covers the corners covers all between them.
@@ -104,8 +104,33 @@ void merge_nearest(const DisplayFrame& layer, glm::ivec2 at_px, DisplayFrame& in
 
 }  // namespace
 
+// What was drawn of the view in other frames and is still shown; hidden layers cover no more than what they lie behind.
+void LayerComposition::find_sides(std::span<const Layer* const> layers) {
+    sides_.clear();
+    for (const Layer* layer : layers) {
+        if (is_side_of(*layer, *layers.front())) sides_.push_back(layer);
+    }
+}
+
+const ViewCover& LayerComposition::cover_of(const Layer& view, const Camera& target) {
+    cover_.clear();
+    cover_.add(view.camera, target);
+    for (const Layer* side : sides_) {
+        if (!(side->camera == view.camera)) cover_.add(side->camera, target);
+    }
+    return cover_;
+}
+
 WarpCounters LayerComposition::show(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
                                     DisplayFrame& into) {
+    find_sides(layers);
+    const WarpCounters counters = show_found(method, layers, target, into);
+    sides_.clear();
+    return counters;
+}
+
+WarpCounters LayerComposition::show_found(WarpMethod& method, std::span<const Layer* const> layers,
+                                          const WarpTarget& target, DisplayFrame& into) {
     const Layer& view = *layers.front();
     WarpCounters counters;
     if (layers.size() > 1 && method.can_stack() && !false_colours_) {
@@ -138,6 +163,7 @@ void LayerComposition::begin_steps(WarpMethod& method, std::span<const Layer* co
                                    int bands, DisplayFrame& into) {
     LW_CHECK(!false_colours_, "false colours say of what layer a pixel is: layers are drawn one by one");
     steps_ = {&method, layers.front(), target, bands, &into, {}, false};
+    find_sides(layers);
     stack_all(layers, target);
     dynamic_cast<SteppedWarp&>(method).begin_stack(stack_, target, StackBase::nothing, bands, into);
 }
@@ -198,7 +224,7 @@ bool LayerComposition::begin_beside_view(const Layer& view, const WarpTarget& ta
 
 // How many pixels tiles may be wanted for: those that show nothing, and all where the view does not look.
 std::size_t LayerComposition::look_where_view_looks(const Layer& view, const Camera& target, const DepthImage& shown) {
-    const ViewCover cover = cover_of(view, target);
+    const ViewCover& cover = cover_of(view, target);
     const int width = shown.width();
     viewed_rows_.resize(static_cast<std::size_t>(shown.height()));
     std::size_t open = 0;
@@ -245,7 +271,7 @@ std::optional<WarpCounters> LayerComposition::add(WarpMethod& method, const Laye
     PixelRect rect = reach_of(layer, target.camera);
     if (rect.empty()) return std::nullopt;
     if (is_beside_view(layer, view)) {
-        const ViewCover cover = cover_of(view, target.camera);
+        const ViewCover& cover = cover_of(view, target.camera);
         // Where the view covers all, only holes count, and no pixel need be asked.
         const MissingPixels missing = missing_in(into, rect, covers_all(cover, target.camera) ? 0.0F : 1.0F, cover);
         if (static_cast<double>(missing.count) < kWorthATile * pixel_count(target.camera)) return std::nullopt;

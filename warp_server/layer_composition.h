@@ -55,6 +55,10 @@ public:
 
 private:
     WarpCounters warp_into_scratch(WarpMethod& method, const Layer& layer, const WarpTarget& target);
+    void find_sides(std::span<const Layer* const> layers);
+    [[nodiscard]] const ViewCover& cover_of(const Layer& view, const Camera& target);
+    WarpCounters show_found(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
+                            DisplayFrame& into);
     void show_stack(WarpMethod& method, std::span<const Layer* const> layers, const WarpTarget& target,
                     DisplayFrame& into, WarpCounters& counters);
     [[nodiscard]] std::size_t look_where_view_looks(const Layer& view, const Camera& target, const DepthImage& shown);
@@ -80,6 +84,8 @@ private:
     DisplayFrame scratch_;
     std::vector<StackedLayer> stack_;
     std::vector<const Layer*> beside_view_;
+    std::vector<const Layer*> sides_;  ///< of the view, beside the first layer
+    ViewCover cover_;
     std::vector<ViewedRow> viewed_rows_;
     DepthImage shown_depth_;  ///< of a picture whose pixels are held
     bool false_colours_ = false;

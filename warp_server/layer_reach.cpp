@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/reprojection.h"
+#include "warp_server/methods/homography_resample.h"
 
 namespace lw {
 namespace {
@@ -85,9 +86,9 @@ float nearest_target_depth(const Layer& layer, const Camera& target) {
 }
 
 // Along a row each side of the view is a condition a + b * x >= 0.
-std::pair<int, int> ViewCover::columns(int y, int width) const {
-    const glm::vec3 at_left = view_from_target * glm::vec3{0.5F, static_cast<float>(y) + 0.5F, 1.0F};
-    const glm::vec3 step = view_from_target[0];
+std::pair<int, int> ViewCover::Picture::columns(int y, int width) const {
+    const glm::vec3 at_left = source_from_target * glm::vec3{0.5F, static_cast<float>(y) + 0.5F, 1.0F};
+    const glm::vec3 step = source_from_target[0];
     float first = 0.0F;
     float end = static_cast<float>(width);
     const auto demand = [&](float at_zero, float per_column) {
@@ -106,6 +107,33 @@ std::pair<int, int> ViewCover::columns(int y, int width) const {
     demand(at_left.z, step.z);
     if (!(first < end)) return {0, 0};
     return {static_cast<int>(first), static_cast<int>(end)};
+}
+
+void ViewCover::add(const Camera& picture, const Camera& target) {
+    pictures_.push_back({background_source_from_target(picture, target), picture.size_px});
+}
+
+std::pair<int, int> ViewCover::columns(int y, int width) const {
+    std::pair<int, int> all{0, 0};
+    for (const Picture& picture : pictures_) {
+        const std::pair<int, int> one = picture.columns(y, width);
+        const bool meet = one.first <= all.second && all.first <= one.second;
+        if (meet && all.first < all.second && one.first < one.second) {
+            all = {std::min(all.first, one.first), std::max(all.second, one.second)};
+        } else if (one.second - one.first > all.second - all.first) {
+            all = one;
+        }
+    }
+    return all;
+}
+
+bool ViewCover::covers(int x, int y) const {
+    const glm::vec3 pixel{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, 1.0F};
+    return std::ranges::any_of(pictures_, [&](const Picture& picture) {
+        const glm::vec3 h = picture.source_from_target * pixel;
+        return h.z > 0.0F && h.x >= 0.0F && h.y >= 0.0F && h.x < picture.size_px.x * h.z &&
+               h.y < picture.size_px.y * h.z;
+    });
 }
 
 MissingPixels missing_in(const DisplayFrame& frame, const PixelRect& rect, float nearest_depth, const ViewCover& view) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/glm.hpp>
 #include <utility>
+#include <vector>
 
 #include "core/camera.h"
 #include "warp_server/pixel_rect.h"
@@ -19,19 +20,27 @@ namespace lw {
 /// (LayerContent::nearest_ray_m). Pure, any thread.
 [[nodiscard]] float nearest_target_depth(const Layer& layer, const Camera& target);
 
-/// What another picture, the view, shows of a target: directions are compared as if the eyes stood in one place.
-struct ViewCover {
-    glm::mat3 view_from_target{1.0F};  ///< background_source_from_target()
-    glm::vec2 size_px{0.0F};           ///< of the view; 0: it covers nothing
+/// What the pictures of the view, one or its sides, show of a target: directions are compared as if the eyes stood in
+/// one place. Keeps its memory. One thread at a time.
+class ViewCover {
+public:
+    void clear() { pictures_.clear(); }
+    void add(const Camera& picture, const Camera& target);
 
-    /// The columns of row y that are covered, of `width`: [first, second).
+    /// The columns of row y that are covered, of `width`: [first, second). Of pictures that leave a gap in the row the
+    /// widest.
     [[nodiscard]] std::pair<int, int> columns(int y, int width) const;
 
-    [[nodiscard]] bool covers(int x, int y) const {
-        const glm::vec3 h =
-            view_from_target * glm::vec3{static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F, 1.0F};
-        return h.z > 0.0F && h.x >= 0.0F && h.y >= 0.0F && h.x < size_px.x * h.z && h.y < size_px.y * h.z;
-    }
+    [[nodiscard]] bool covers(int x, int y) const;
+
+private:
+    struct Picture {
+        glm::mat3 source_from_target{1.0F};  ///< background_source_from_target()
+        glm::vec2 size_px{0.0F};
+
+        [[nodiscard]] std::pair<int, int> columns(int y, int width) const;
+    };
+    std::vector<Picture> pictures_;
 };
 
 /// What a display frame lacks in a part of it.

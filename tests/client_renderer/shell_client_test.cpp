@@ -232,6 +232,28 @@ TEST_F(ShellClientTest, AViewLeavesRoomForATileThatIsWorthMore) {
     EXPECT_LE(shells.records().back().spent_ms, 3.0);
 }
 
+TEST_F(ShellClientTest, WhileTheHeadIsCalmTheSidesOfTheViewAreDrawnInTurn) {
+    settings_.budget_ms = 1.8;  // too little for all of the view as densely as can be
+    ShellClient shells = client();
+    std::vector<std::string> drawn;
+    for (int frame = 0; frame < 6; ++frame) {
+        const auto layers = shells.draw(moment(0.1 * frame, {0.02 * frame, 0.0, 0.0}));
+        drawn.push_back(layers[0]->name);
+        if (frame < 3) continue;
+        EXPECT_NE(layers[0]->name, layers[1]->name);
+        EXPECT_EQ(layers[1]->name, drawn[static_cast<std::size_t>(frame) - 1]) << "the other side is that of before";
+        EXPECT_GT(layers[0]->camera.size_px.y, kSidePx) << "half of the view, and denser for it";
+        EXPECT_LT(layers[0]->camera.size_px.x, layers[0]->camera.size_px.y);
+    }
+    const std::vector<std::string> last{drawn.end() - 3, drawn.end()};
+    EXPECT_EQ(last, (std::vector<std::string>{"view-left", "view-right", "view-left"}));
+    const auto turned = shells.draw(moment(0.6, {0.12, 0.0, 0.0}, 0.5));
+    EXPECT_EQ(turned[0]->name, "view") << "the older side does not show where the head looks now";
+    for (std::size_t i = 1; i < shells.records().size(); ++i) {
+        EXPECT_LE(shells.records()[i].spent_ms, shells.records()[i].budget_ms);
+    }
+}
+
 TEST_F(ShellClientTest, EqualCallsGiveEqualSchedules) {
     std::vector<std::vector<std::uint32_t>> items(2);
     for (auto& run : items) {

@@ -63,6 +63,7 @@ DisplayFrame shown(std::span<const Layer* const> layers, const Camera& target, b
 
 constexpr Rgba8 kRed{255, 0, 0, 255};
 constexpr Rgba8 kGreen{0, 255, 0, 255};
+constexpr Rgba8 kBlue{0, 0, 255, 255};
 
 TEST(LayerStack, TwoPartsOfAPictureShowWhatTheWholeShows) {
     const Camera source = street_camera({96, 96});
@@ -154,6 +155,25 @@ TEST(LayerStack, TilesBesideTheViewShowWhereItDoesNotLook) {
     EXPECT_EQ(frame.colour.at(4, 32), kRed);
     EXPECT_EQ(frame.colour.at(56, 32), kGreen);
     for (const float depth : frame.depth.pixels()) EXPECT_LE(depth, 1.0F) << "a depth that held a pixel was left";
+}
+
+TEST(LayerStack, TilesBesideTheViewLeaveItsOlderSideAlone) {
+    const Camera camera = street_camera({64, 64});
+    Camera left = camera;
+    left.size_px.x = 34;
+    left.fov.right = camera.fov.left + (camera.fov.right - camera.fov.left) * 34 / 64;
+    Camera right = turned(camera, 1.0);
+    right.size_px.x = 34;
+    right.fov.left = camera.fov.right - (camera.fov.right - camera.fov.left) * 34 / 64;
+    const Layer newest = plane(left, 0.03F, 0, kRed);
+    const Layer older = plane(right, 0.03F, 0, kBlue);
+    const Layer tile = plane(camera, 0.05F, 7, kGreen);
+    const Layer* layers[] = {&newest, &older, &tile};
+    for (const bool stacked : {true, false}) {
+        const DisplayFrame frame = shown(layers, camera, stacked);
+        EXPECT_EQ(frame.colour.at(6, 32), kRed);
+        EXPECT_EQ(frame.colour.at(58, 32), kBlue) << "no green before it, though that is nearer";
+    }
 }
 
 TEST(LayerStack, ATileBesideTheViewDoesNotReplaceWhatTheViewShows) {

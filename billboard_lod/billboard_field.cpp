@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "billboard_lod/billboard_versions.h"
 #include "billboard_lod/billboard_view.h"
 #include "billboard_lod/bounded_queue.h"
 #include "billboard_lod/object_groups.h"
@@ -17,33 +18,13 @@ namespace lw {
 
 namespace {
 
-/// A drawn billboard in its slot.
-struct Version {
-    AtlasSlot slot;
-    DrawnBillboard drawn;
-    glm::dmat4 object_from_eye_drawn{1.0};
-    glm::dvec3 horizontal_world{1.0, 0.0, 0.0};  ///< of the picture it was drawn for
-    glm::dvec3 to_centre_world{0.0};             ///< from the eye that drew it
-};
-
 enum class Shown : std::uint8_t { nothing, mesh, billboard };
-
-/// What a frame shows of an object.
-struct Look {
-    std::optional<Version> current;
-    std::optional<Version> previous;  ///< while it fades out
-    float fade = 1.0f;                ///< 0: only `previous` shows, 1: only `current`
-};
 
 struct Entry {
     BillboardObject object;
     std::vector<glm::dvec3> outline;  ///< outline_points() of its instances, in the space of its bounds
     std::uint64_t triangles = 0;
-    std::optional<Version> current;
-    std::optional<Version> previous;  ///< while it fades out
-    Look before;                      ///< of the last frame, with keep_replaced
-    int fade = 0;                     ///< frames since `current` was drawn
-    std::uint64_t last_shown = 0;     ///< number of the last frame that showed `current`
+    BillboardVersions versions;
     Shown shown = Shown::nothing;
     ProjectedBounds bounds;
     glm::dmat4 world_from_object{1.0};
@@ -74,7 +55,7 @@ public:
           stage_clock_{stage_clock},
           atlas_{std::move(atlas)},
           pass_{std::move(pass)},
-          slots_{atlas_.layouts()},
+          slots_{atlas_.layouts(), settings.keep_replaced},
           creations_{static_cast<std::size_t>(std::max(settings.max_creations, 0))},
           updates_{static_cast<std::size_t>(std::max(settings.max_updates, 0))},
           mesh_distance_m_{mesh_distance_m(scene.bounds_world, settings.mesh_distance_share)},
@@ -92,10 +73,12 @@ public:
             entry.object = std::move(object);
             entries_.push_back(std::move(entry));
         }
+        for (Entry& entry : entries_) slots_.add(entry.versions);
     }
 
     void prepare(const Camera& camera, const scene::SceneState& state) override {
         if (settings_.keep_replaced) remember();
+        slots_.begin_frame();
         ++frame_;
         counters_ = {};
         std::ranges::fill(replaced_, std::uint8_t{0});
@@ -117,7 +100,10 @@ public:
         fading_.clear();
         for (const Entry& entry : entries_) {
             if (entry.shown != Shown::billboard) continue;
-            append(entry, withholds_ && entry.before.current ? entry.before : look_of(entry), part);
+            const BillboardVersions& versions = entry.versions;
+            append(entry,
+                   withholds_ && versions.before.current ? versions.before : versions.look(settings_.fade_frames),
+                   part);
         }
         pass_.draw(quads_, atlas_, part);
     }
@@ -140,24 +126,11 @@ public:
     [[nodiscard]] const BillboardSettings& settings() const override { return settings_; }
 
 private:
-    [[nodiscard]] Look look_of(const Entry& entry) const {
-        if (!entry.previous) return {entry.current, std::nullopt, 1.0f};
-        const auto steps = static_cast<float>(settings_.fade_frames + 1);
-        return {entry.current, entry.previous, static_cast<float>(entry.fade) / steps};
-    }
-
-    /// Before a frame: what the last one shows, and the slots that it no longer needs.
+    /// Before a frame: what the last one shows.
     void remember() {
-        for (Entry& entry : entries_) entry.before = entry.shown == Shown::billboard ? look_of(entry) : Look{};
-        for (const AtlasSlot slot : retired_) slots_.release(slot);
-        retired_.clear();
-    }
-
-    void release(AtlasSlot slot) {
-        if (settings_.keep_replaced) {
-            retired_.push_back(slot);
-        } else {
-            slots_.release(slot);
+        for (Entry& entry : entries_) {
+            entry.versions.before =
+                entry.shown == Shown::billboard ? entry.versions.look(settings_.fade_frames) : BillboardLook{};
         }
     }
 
@@ -189,11 +162,11 @@ private:
                 ++counters_.out_of_view;
             } else if (score == 0.0) {
                 ++counters_.near_meshes;
-            } else if (!entry.current) {
+            } else if (!entry.versions.current) {
                 queue(creations_, score, e);
             } else {
                 const double due = update_priority(entry);
-                if (due < (entry.previous ? kDueWhileFading : 1.0)) {
+                if (due < (entry.versions.previous ? kDueWhileFading : 1.0)) {
                     entry.shown = Shown::billboard;
                 } else {
                     queue(updates_, due, e);
@@ -207,7 +180,7 @@ private:
     }
 
     [[nodiscard]] double update_priority(const Entry& entry) const {
-        const Version& version = *entry.current;
+        const BillboardVersion& version = *entry.versions.current;
         if (settings_.criterion == UpdateCriterion::angles) {
             const BillboardPlane plane = plane_of(version.drawn.grid.window(), version.drawn.plane_m);
             const glm::dvec3 centre_world{entry.world_from_object * version.object_from_eye_drawn *
@@ -224,7 +197,7 @@ private:
                settings_.error_cap_px;
     }
 
-    [[nodiscard]] double error_px(const Version& version, const glm::dmat4& eye_now_from_eye_drawn) const {
+    [[nodiscard]] double error_px(const BillboardVersion& version, const glm::dmat4& eye_now_from_eye_drawn) const {
         const bool flat = settings_.mode == BillboardMode::flat && settings_.criterion == UpdateCriterion::error;
         return flat ? flat_error_px(version.drawn, eye_now_from_eye_drawn, camera_)
                     : warped_error_px(version.drawn, eye_now_from_eye_drawn, camera_);
@@ -235,13 +208,13 @@ private:
         begin_stage();
         jobs_.clear();
         for (const std::uint32_t e : chosen_) {
-            const std::optional<AtlasSlot> slot = reserve(entries_[e]);
+            const std::optional<AtlasSlot> slot = slots_.reserve(wanted_level(entries_[e]), frame_);
             if (!slot) {
                 ++counters_.atlas_meshes;
                 continue;
             }
-            entries_[e].current = drawn_now(entries_[e], *slot);
-            entries_[e].last_shown = frame_;  // so that the next one does not push it out
+            entries_[e].versions.current = drawn_now(entries_[e], *slot);
+            entries_[e].versions.last_shown = frame_;  // so that the next one does not push it out
             jobs_.push_back(e);
         }
         counters_.created = paint_jobs();
@@ -273,17 +246,6 @@ private:
         }
     }
 
-    /// A slot for what the entry's billboard will be.
-    std::optional<AtlasSlot> reserve(const Entry& entry) {
-        const std::size_t level = wanted_level(entry);
-        std::optional<AtlasSlot> slot = slots_.reserve(level);
-        if (slot && slot->level == level) return slot;
-        // A billboard that nobody looks at gives way before another size is taken.
-        if (!evict(level)) return slot;
-        if (slot) slots_.release(*slot);
-        return slots_.reserve(level);
-    }
-
     [[nodiscard]] std::vector<glm::dvec3> outline_of(const BillboardObject& object,
                                                      const scene::SceneState& state) const {
         std::vector<glm::dvec3> outline;
@@ -306,50 +268,29 @@ private:
         return covering_dimension(grid_on_pixels(outline_bounds(entry), camera_, settings_.texels_per_px).size);
     }
 
-    bool evict(std::size_t level) {
-        Entry* oldest = nullptr;
-        for (Entry& entry : entries_) {
-            if (!entry.current || entry.current->slot.level != level || entry.last_shown + 1 >= frame_) continue;
-            if (oldest == nullptr || entry.last_shown < oldest->last_shown) oldest = &entry;
-        }
-        if (oldest == nullptr) return false;
-        forget(*oldest);
-        return true;
-    }
-
-    void forget(Entry& entry) {
-        for (std::optional<Version>* version : {&entry.current, &entry.previous}) {
-            if (*version) release((*version)->slot);
-            version->reset();
-        }
-    }
-
     /// Gives the entry a version of this frame: in its slot where the size is still right and nothing fades.
     void renew(Entry& entry) {
         const std::size_t level = wanted_level(entry);
         const bool fades = settings_.fade_frames > 0;
-        AtlasSlot slot = entry.current->slot;
-        if (entry.previous) {
-            release(entry.previous->slot);
-            entry.previous.reset();
-        }
+        AtlasSlot slot = entry.versions.current->slot;
+        slots_.end_fade(entry.versions);
         if (fades || settings_.keep_replaced || slot.level != level) {
-            if (const std::optional<AtlasSlot> other = reserve(entry)) {
+            if (const std::optional<AtlasSlot> other = slots_.reserve(level, frame_)) {
                 if (fades) {
-                    entry.previous = entry.current;
+                    entry.versions.previous = entry.versions.current;
                 } else {
-                    release(slot);
+                    slots_.release(slot);
                 }
                 slot = *other;
             }
         }
-        entry.fade = 0;
-        entry.current = drawn_now(entry, slot);
-        entry.last_shown = frame_;
+        entry.versions.fade = 0;
+        entry.versions.current = drawn_now(entry, slot);
+        entry.versions.last_shown = frame_;
     }
 
-    [[nodiscard]] Version drawn_now(const Entry& entry, AtlasSlot slot) const {
-        Version version;
+    [[nodiscard]] BillboardVersion drawn_now(const Entry& entry, AtlasSlot slot) const {
+        BillboardVersion version;
         version.slot = slot;
         const ProjectedBounds bounds = outline_bounds(entry);
         version.drawn.grid = grid_in_slot(bounds, camera_, settings_.texels_per_px, kBillboardDimensions[slot.level]);
@@ -366,7 +307,9 @@ private:
 
     /// Draws the entries of jobs_ into their slots. @return how many were drawn
     std::uint64_t paint_jobs() {
-        const auto page_of_job = [&](std::uint32_t e) { return page_of(atlas_.layouts(), entries_[e].current->slot); };
+        const auto page_of_job = [&](std::uint32_t e) {
+            return page_of(atlas_.layouts(), entries_[e].versions.current->slot);
+        };
         std::ranges::stable_sort(jobs_, {}, page_of_job);
         std::uint64_t painted = 0;
         for (std::span<const std::uint32_t> rest{jobs_}; !rest.empty();) {
@@ -384,7 +327,7 @@ private:
         views_.clear();
         cleared_.clear();
         for (const std::uint32_t e : jobs) {
-            const Version& version = *entries_[e].current;
+            const BillboardVersion& version = *entries_[e].versions.current;
             cleared_.push_back(version.slot.index);
             PaintedView view = painted_view(version.drawn, atlas_.layouts()[page.level], version.slot.index, camera_);
             for (const std::uint32_t instance : entries_[e].object.instances) {
@@ -405,7 +348,7 @@ private:
             if (painted) {
                 entry.shown = Shown::billboard;
             } else {
-                forget(entry);
+                slots_.forget(entry.versions);
                 ++counters_.atlas_meshes;
             }
         }
@@ -413,26 +356,25 @@ private:
 
     void finish() {
         for (Entry& entry : entries_) {
-            if (entry.previous && (entry.shown != Shown::billboard || entry.fade >= settings_.fade_frames)) {
-                release(entry.previous->slot);
-                entry.previous.reset();
+            if (entry.shown != Shown::billboard || entry.versions.fade >= settings_.fade_frames) {
+                slots_.end_fade(entry.versions);
             }
             if (entry.shown != Shown::billboard) continue;
-            if (!quad_of(entry, *entry.current, camera_)) {
+            if (!quad_of(entry, *entry.versions.current, camera_)) {
                 // It crosses the near plane although it is not due: possible only with a cap that nothing reaches.
                 entry.shown = Shown::mesh;
                 ++counters_.near_meshes;
                 continue;
             }
-            ++entry.fade;
-            entry.last_shown = frame_;
+            ++entry.versions.fade;
+            entry.versions.last_shown = frame_;
             ++counters_.active;
-            ++counters_.active_by_dimension[entry.current->slot.level];
+            ++counters_.active_by_dimension[entry.versions.current->slot.level];
             for (const std::uint32_t instance : entry.object.instances) replaced_[instance] = 1;
         }
     }
 
-    [[nodiscard]] std::optional<shader::BillboardRecord> quad_of(const Entry& entry, const Version& version,
+    [[nodiscard]] std::optional<shader::BillboardRecord> quad_of(const Entry& entry, const BillboardVersion& version,
                                                                  const Camera& camera) const {
         const glm::dmat4 eye_now_from_eye_drawn =
             inverse_matrix_of(camera.world_from_eye) * entry.world_from_object * version.object_from_eye_drawn;
@@ -447,7 +389,7 @@ private:
 
     /// The new version comes in over the old one, and then the old one goes where the new one does not cover it:
     /// nowhere does what lies behind both shine through.
-    void append(const Entry& entry, const Look& look, const Camera& part) {
+    void append(const Entry& entry, const BillboardLook& look, const Camera& part) {
         std::optional<DrawnQuad> now = drawn_quad(entry, *look.current, part);
         std::optional<DrawnQuad> before;
         if (look.previous) before = drawn_quad(entry, *look.previous, part);
@@ -465,7 +407,7 @@ private:
         fading_.push_back(comes_in ? *now : *before);
     }
 
-    [[nodiscard]] std::optional<DrawnQuad> drawn_quad(const Entry& entry, const Version& version,
+    [[nodiscard]] std::optional<DrawnQuad> drawn_quad(const Entry& entry, const BillboardVersion& version,
                                                       const Camera& part) const {
         std::optional<shader::BillboardRecord> record = quad_of(entry, version, part);
         if (!record) return std::nullopt;
@@ -490,7 +432,7 @@ private:
     const Clock* stage_clock_;
     BillboardAtlas atlas_;
     BillboardPass pass_;
-    SlotTable slots_;
+    VersionSlots slots_;
     BoundedQueue<std::uint32_t> creations_;
     BoundedQueue<std::uint32_t> updates_;
     double mesh_distance_m_;
@@ -507,7 +449,6 @@ private:
     std::optional<Pose> last_pose_;
     TimePoint stage_begin_;
 
-    std::vector<AtlasSlot> retired_;  ///< that the last frame showed and this one does not, with keep_replaced
     std::vector<std::uint32_t> chosen_;
     std::vector<std::uint32_t> jobs_;
     std::vector<PaintedView> views_;

@@ -114,7 +114,7 @@ std::optional<shader::BillboardRecord> warped_record(const DrawnBillboard& billb
     const glm::dvec2 middle = 0.5 * (extent.tangent_min + extent.tangent_max);
     const double texels = texels_along(texel_from_ray, texel_step, middle, q_near, q_far);
     record.extent.w = static_cast<float>(
-        std::clamp(std::ceil(std::isfinite(texels) ? texels : 1.0), 1.0, double{shader::kMaxReliefSteps}));
+        std::clamp(std::ceil(std::isfinite(texels) ? texels : 1.0), 1.0, double{shader::kMaxReliefTexels}));
 
     // Any plane does; the nearest keeps the numbers small. What lies out of view is left out.
     const glm::dvec2 low = glm::max(extent.tangent_min, glm::dvec2{camera.fov.left, camera.fov.down});

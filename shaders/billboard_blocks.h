@@ -28,12 +28,12 @@ const int kBindingActive = 2;
 const int kAttributeBillboard = 0;
 const int kBillboardMembers = 9;
 
-const int kMaxReliefSteps = 16;
+const int kMaxReliefTexels = 16;
 
 // A billboard as one frame draws it. Eye space is that of the picture, the picture's axes.
 struct BillboardRecord {
     vec4 centre;   // eye space, metres; w: half width of the quad
-    vec4 extent;   // x: half height, y: what its depth is multiplied by, w: relief steps
+    vec4 extent;   // x: half height, y: what its depth is multiplied by, w: texels by which depth moves it
     vec4 slot;     // first texel in the atlas, texels in use
     vec4 depth;    // inverse distance when drawn = texel * x + y; z: flat: d_a - d_cc; w: unused
     vec4 texel_x;  // texel.x * w = dot(texel_x.xyz, ray) + inverse_distance * texel_x.w, ray at distance 1

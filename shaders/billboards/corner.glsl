@@ -3,7 +3,7 @@ uniform vec4 u_ndc_from_tangent;  // scale, offset
 
 #ifdef WARPED
 noperspective out vec3 v_texel_from_ray;
-flat out vec4 v_relief;  // texel = (texel_from_ray + q * xyz).xy / .z at inverse distance q; w: steps
+flat out vec4 v_relief;  // texel = (texel_from_ray + q * xyz).xy / .z at inverse distance q; w: texels it moves
 flat out vec2 v_range;
 #else
 noperspective out vec2 v_texel;

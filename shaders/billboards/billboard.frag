@@ -113,22 +113,23 @@ Candidate candidate_at(float q) {
 // Whether the ray is within the candidate's texel where it meets the texel's surface. There is one.
 bool meets_its_texel(Candidate candidate) { return ivec2(floor(place_at(candidate.q))) == candidate.texel; }
 
-// The ray is followed from its nearest place on, half a texel at a time. What shows is a texel that lies where its own
-// surface crosses the ray: without that check whatever stands before something else grows by half a texel on each side.
-// Where the ray passes between two texels of one surface, before the one and behind the other, the second shows.
+// The ray is followed from its nearest place on. What shows is a texel that lies where its own surface crosses the ray:
+// without that check whatever stands before something else grows by half a texel on each side.
 Candidate followed() {
-    int steps = 2 * int(v_relief.w);
+    int steps = int(v_relief.w);
     float q_step = (v_range.y - v_range.x) / float(steps);
-    float tolerance = 1.5 * abs(q_step);
+    float tolerance = 0.75 * abs(q_step);
     Candidate hit = Candidate(ivec2(0), 0.0, 0.0);
-    Candidate before = hit;
-    for (int i = 0; i <= steps; ++i) {
-        float q_try = v_range.x + float(i) * q_step;
-        Candidate found = candidate_at(q_try);
-        bool between = before.q > 0.0 && abs(found.q - q_try) <= tolerance &&
-                       abs(before.q - (q_try - q_step)) <= tolerance;
-        if (hit.q == 0.0 && found.q > 0.0 && (between || meets_its_texel(found))) hit = found;
-        before = found;
+    for (int i = 0; i < steps; ++i) {
+        float q_try = v_range.x + (float(i) + 0.5) * q_step;
+        Candidate near_by = candidate_at(q_try);
+        Candidate found = candidate_at(near_by.q);
+        // Where depth moves nothing by more than a texel, the texel at mid depth is right but where the ray is in the
+        // other one at its surface. What is empty there stays empty: outlines must not grow.
+        if (steps == 1 && found.q > 0.0 && !meets_its_texel(found)) found = near_by;
+        bool hits = near_by.q > 0.0 && found.q > 0.0 && abs(near_by.q - q_try) <= tolerance &&
+                    abs(found.q - near_by.q) <= tolerance;
+        if (hits && hit.q == 0.0) hit = found;
     }
     return hit;
 }

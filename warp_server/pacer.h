@@ -1,7 +1,10 @@
 #pragma once
-/// When to wake for a refresh: as late as the learnt time from waking to presenting allows, because every millisecond
-/// of lead is a millisecond of latency. Pure logic; time is an argument.
+/// When to wake for a refresh: as late as the time from waking to presenting allows, because every millisecond of lead
+/// is a millisecond of latency. That time changes little from one refresh to the next, and threefold within a frame's
+/// life, as the head turns away from where the frame was drawn: so what is learnt is by how much it grows at once. Pure
+/// logic; time is an argument.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -15,8 +18,11 @@ namespace lw {
 struct PacerSettings {
     /// Latch exactly this long before each scan-out (--lead); learnt when empty. >= 0.
     std::optional<Duration> fixed_lead;
-    /// The lead never falls below the learnt work time plus this much.
+    /// The lead is never less than what the work is expected to take and may grow by, plus this: an eighth of a period,
+    /// since strips take little and grow by little, within these bounds. Growth beyond the 99th percentile is mostly
+    /// below a millisecond.
     Duration smallest_margin = from_ms(0.3);
+    Duration enough_margin = from_ms(1.25);
     /// The lead is at most so many periods: 1 for whole pictures, since an earlier one would overtake the one before;
     /// strips may be made as many slots ahead as a refresh has.
     int longest_lead_periods = 1;
@@ -40,7 +46,7 @@ struct PacerOutcome {
 /// One thread.
 class Pacer {
 public:
-    explicit Pacer(const PacerSettings& settings = {}) : settings_{settings}, margin_{settings.smallest_margin} {}
+    explicit Pacer(const PacerSettings& settings = {}) : settings_{settings} {}
 
     /// `next` is the first refresh that still lacks a picture (Presenter::next_refresh). The plan is made for it, or,
     /// when the time left is less than the work ordinarily takes, for the first refresh that can still be reached: a
@@ -49,8 +55,7 @@ public:
     [[nodiscard]] PacerPlan next_wake(TimePoint now, const Refresh& next) const;
 
     /// Learns from a finished refresh. A late wake-up counts as work: on a machine that wakes threads late the lead has
-    /// to cover it. A miss widens the margin by `miss_step`; a hit takes 1/kHitsPerMiss of that back, so in the long
-    /// run at most one refresh in kHitsPerMiss is spent on finding out how late is too late.
+    /// to cover it. A miss widens the margin by `miss_step`; a hit takes 1/kHitsPerMiss of that back.
     void finished(const PacerOutcome& outcome);
 
     /// Time from waking to scan-out that next_wake() uses for a display of this period. At most
@@ -63,7 +68,7 @@ public:
     }
 
     static constexpr int kHitsPerMiss = 500;
-    /// Work times remembered: 3 s at 90 Hz, so that one disturbance is forgotten after that.
+    /// Work times, and growths, remembered: 3 s at 90 Hz, so that one disturbance is forgotten after that.
     static constexpr std::size_t kWindow = 256;
     /// Until this many are known the lead is kUnlearntLead of a period.
     static constexpr std::size_t kEnough = 16;
@@ -71,14 +76,21 @@ public:
     static constexpr double kQuantile = 0.99;
 
 private:
-    [[nodiscard]] Duration work_quantile(double quantile) const;
+    using Window = std::array<Duration, kWindow>;
+
+    [[nodiscard]] Duration smallest_margin(Duration period) const;
+    [[nodiscard]] Duration margin(Duration period) const { return std::max(margin_, smallest_margin(period)); }
+    [[nodiscard]] Duration quantile_of(const Window& window, double quantile) const;
 
     PacerSettings settings_;
-    Duration margin_;
-    std::array<Duration, kWindow> work_{};
+    Duration margin_{};  ///< after misses; at least the smallest
+    Window work_{};
+    Window growth_{};  ///< of each work beyond what was expected of it
     std::size_t work_count_ = 0;
-    Duration slow_work_{};      ///< kQuantile of the window
-    Duration ordinary_work_{};  ///< its median
+    Duration last_work_{};
+    Duration expected_work_{};  ///< the longer of the last two
+    Duration ordinary_work_{};  ///< median of the window
+    Duration fast_growth_{};    ///< kQuantile of the window, not below 0
 };
 
 }  // namespace lw

@@ -6,31 +6,42 @@
 #include <cstddef>
 #include <vector>
 
+#include "warp_server/methods/row_range.h"
 #include "warp_server/methods/winner_rule.h"
 
 namespace lw {
 
-/// Keys of the target rows in flight: row y lives in slot y modulo the number of slots, a power of two. Few rows stay
-/// in the second-level cache, where a whole picture of 8 MB does not. All keys are 0 between display frames.
+/// Keys of the target rows in flight, of some columns: row y lives in slot y modulo the number of slots, a power of
+/// two. Few rows stay in the second-level cache, where a whole picture of 8 MB does not. All keys are 0 between display
+/// frames.
 class KeyRing {
 public:
-    /// Makes room for `rows` rows of `width` keys. Allocates only when it needs more than ever before.
-    void reshape(int width, int rows) {
-        width_ = width;
+    /// Makes room for `rows` rows of the columns. Allocates only when it needs more than ever before.
+    void reshape(RowRange columns, int rows) {
+        first_column_ = columns.begin;
+        width_ = columns.end - columns.begin;
+        // No power of two: a processor takes places that are whole pages apart for one when it orders reads and writes.
+        stride_ = (width_ + 63) / 64 * 64 + 8;
         slots_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(rows, 1))));
-        const std::size_t count = static_cast<std::size_t>(width_) * static_cast<std::size_t>(slots_);
+        const std::size_t count = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(slots_);
         if (keys_.size() < count) keys_.resize(count, WinnerKey{0});
     }
 
+    [[nodiscard]] int first_column() const { return first_column_; }
     [[nodiscard]] int width() const { return width_; }
+    /// From a row to the next.
+    [[nodiscard]] int stride() const { return stride_; }
     [[nodiscard]] int slots() const { return slots_; }
     [[nodiscard]] WinnerKey* data() { return keys_.data(); }
+    /// Of the ring's first column.
     [[nodiscard]] WinnerKey* row(int y) {
-        return keys_.data() + static_cast<std::size_t>(y & (slots_ - 1)) * static_cast<std::size_t>(width_);
+        return keys_.data() + static_cast<std::size_t>(y & (slots_ - 1)) * static_cast<std::size_t>(stride_);
     }
 
 private:
+    int first_column_ = 0;
     int width_ = 0;
+    int stride_ = 0;
     int slots_ = 0;
     std::vector<WinnerKey> keys_;
 };

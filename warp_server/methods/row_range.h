@@ -1,9 +1,9 @@
 #pragma once
-/// Bands of image rows.
+/// Bands of image rows, and the same of columns.
 
 namespace lw {
 
-/// Half-open range of image rows.
+/// Half-open range of image rows, or columns.
 struct RowRange {
     int begin = 0;
     int end = 0;

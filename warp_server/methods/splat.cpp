@@ -7,6 +7,7 @@
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/splat_kernels.h"
+#include "warp_server/methods/splat_panels.h"
 #include "warp_server/methods/splat_reach.h"
 #include "warp_server/methods/splat_resolve.h"
 #include "warp_server/methods/splat_tiles.h"
@@ -14,7 +15,8 @@
 namespace lw {
 namespace {
 
-// Bands of the source are worked on in order, and a target row is finished as soon as no later band can reach it.
+// In each panel of the target, bands of the source are worked on in order, and a target row is finished as soon as no
+// later band can reach it.
 // Threads share the target by rows, each with keys of its own: a band that lands in two shares is placed twice, nothing
 // is merged, and the larger key wins whoever wrote it, so the picture does not depend on the number of threads.
 class SplatMethod final : public WarpMethod {
@@ -34,6 +36,7 @@ public:
         const auto& tiles = prepared_or_made<SplatTiles>(layer, own);
         matrices_.build(layer, target);
         reach_.build(tiles, matrices_, target.camera.size_px);
+        panels_.build(reach_);
         out.resize(target.camera.size_px);
         input_ = {&pixels, &tiles, &matrices_};
         background_ = {background_source_from_target(layer.camera, target.camera)};
@@ -44,19 +47,23 @@ public:
 
 private:
     void draw_share(int thread) {
-        const RowRange share = reach_.share(*input_.tiles, thread, pool_.threads());
+        for (const SplatPanel& panel : panels_.all()) draw_share(panel, thread);
+    }
+
+    void draw_share(const SplatPanel& panel, int thread) {
+        const RowRange share = panel.share(*input_.tiles, thread, pool_.threads());
         KeyRing& keys = keys_[static_cast<std::size_t>(thread)];
-        keys.reshape(out_->colour.width(), std::min(reach_.rows_in_flight(), out_->colour.height()));
+        keys.reshape(panel.columns(), std::min(panel.rows_in_flight(), out_->colour.height()));
         int finished = share.begin;  // rows before are done
         int reached = share.begin;   // rows from here on were not written yet
-        finish_rows(finished, reached, std::min(reach_.first_row_from_band(0), share.end), keys);
+        finish_rows(finished, reached, std::min(panel.first_row_from_band(0), share.end), keys);
         for (int band = 0; band < input_.tiles->bands(); ++band) {
-            const RowRange rows = reach_.rows_of_band(band);
+            const RowRange rows = panel.rows_of_band(band);
             if (rows.begin < share.end && rows.end > finished && rows.begin < rows.end) {
-                splat_band(input_, band, reach_.outside(band), {finished, share.end}, keys);
+                splat_band(input_, band, panel.outside(band), {finished, share.end}, keys);
                 reached = std::clamp(rows.end, reached, share.end);
             }
-            finish_rows(finished, reached, std::min(reach_.first_row_from_band(band + 1), share.end), keys);
+            finish_rows(finished, reached, std::min(panel.first_row_from_band(band + 1), share.end), keys);
         }
     }
 
@@ -66,7 +73,8 @@ private:
         const int end_reached = std::min(end, reached);
         if (finished < end_reached) resolve_rows(input_, background_, {finished, end_reached}, keys, *out_);
         const int begin_unreached = std::max(finished, end_reached);
-        resolve_unreached_rows(input_, background_, {begin_unreached, end}, *out_);
+        const int end_column = keys.first_column() + keys.width();
+        resolve_unreached(input_, background_, {{keys.first_column(), begin_unreached}, {end_column, end}}, *out_);
         finished = end;
         reached = std::max(reached, end);
     }
@@ -86,6 +94,7 @@ private:
     std::vector<KeyRing> keys_;  // one for each thread
     ObjectMatrices matrices_;
     SplatReach reach_;
+    SplatPanels panels_;
     SplatInput input_;
     BackgroundLookup background_;
     DisplayFrame* out_ = nullptr;

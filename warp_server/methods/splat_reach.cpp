@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "warp_server/methods/row_range.h"
 #include "warp_server/methods/splat_footprint.h"
 
 namespace lw {
@@ -63,32 +64,25 @@ RowRange pixels_of(const Extent& extent, int size) {
     return {static_cast<int>(begin), static_cast<int>(end)};
 }
 
-// A pixel costs something, too, where no point lands: about a third of one with a point (what evens out the samples of
-// two threads over a picture half of which is background).
-long cost_of_band(const SplatTiles& tiles, std::size_t band) {
-    const int rows = std::min(kBandHeight_px, tiles.size_px.y - static_cast<int>(band) * kBandHeight_px);
-    return 2L * tiles.points[band] + long{rows} * tiles.size_px.x;
-}
-
-RowRange joined(const RowRange& a, const RowRange& b) {
-    if (a.begin >= a.end) return b;
-    if (b.begin >= b.end) return a;
-    return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+PixelRect joined(const PixelRect& a, const PixelRect& b) {
+    if (a.empty()) return b;
+    if (b.empty()) return a;
+    return {glm::min(a.first_px, b.first_px), glm::max(a.end_px, b.end_px)};
 }
 
 }  // namespace
 
 void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, glm::ivec2 target_size_px) {
-    const auto bands = static_cast<std::size_t>(tiles.bands());
-    target_height_ = target_size_px.y;
+    target_size_px_ = target_size_px;
+    bands_ = tiles.bands();
     tiles_per_band_ = tiles.tiles_per_band();
-    rows_.assign(bands, RowRange{});
-    outside_.assign(bands * static_cast<std::size_t>(tiles_per_band_), 1);
-    for (std::size_t band = 0; band < bands; ++band) {
-        const int y = static_cast<int>(band) * kBandHeight_px;
+    rects_.assign(static_cast<std::size_t>(bands_) * static_cast<std::size_t>(tiles_per_band_), PixelRect{});
+    for (int band = 0; band < bands_; ++band) {
+        const int y = band * kBandHeight_px;
         const int end_y = std::min(y + kBandHeight_px, tiles.size_px.y);
-        std::uint8_t* outside = outside_.data() + band * static_cast<std::size_t>(tiles_per_band_);
-        for (int i = tiles.first_patch[band]; i < tiles.first_patch[band + 1]; ++i) {
+        PixelRect* rects = rects_.data() + static_cast<std::size_t>(band) * static_cast<std::size_t>(tiles_per_band_);
+        const auto b = static_cast<std::size_t>(band);
+        for (int i = tiles.first_patch[b]; i < tiles.first_patch[b + 1]; ++i) {
             const TilePatch& patch = tiles.patches[static_cast<std::size_t>(i)];
             const PixelMatrix* matrix = matrices.find(patch.object);
             if (matrix == nullptr) continue;
@@ -99,53 +93,19 @@ void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, 
                           static_cast<float>(end_y) - 0.5F, patch.least_depth, patch.greatest_depth},
                          *matrix);
             if (reach.kind == BoxReach::Kind::behind) continue;
-            RowRange rows{0, target_size_px.y};
+            PixelRect rect{{0, 0}, target_size_px};
             if (reach.kind == BoxReach::Kind::bounded) {
                 const RowRange columns = pixels_of(reach.x, target_size_px.x);
-                rows = pixels_of(reach.y, target_size_px.y);
-                if (columns.begin >= columns.end || rows.begin >= rows.end) continue;
+                const RowRange rows = pixels_of(reach.y, target_size_px.y);
+                rect = {{columns.begin, rows.begin}, {columns.end, rows.end}};
             }
-            outside[patch.tile] = 0;
-            rows_[band] = joined(rows_[band], rows);
+            rects[patch.tile] = joined(rects[patch.tile], rect);
         }
     }
-    tiles_outside_ = static_cast<int>(std::count(outside_.begin(), outside_.end(), 1));
-
-    first_row_.assign(bands + 1, target_height_);
-    for (std::size_t band = bands; band-- > 0;) {
-        const RowRange& rows = rows_[band];
-        first_row_[band] = rows.begin < rows.end ? std::min(rows.begin, first_row_[band + 1]) : first_row_[band + 1];
-    }
-    rows_in_flight_ = 1;
-    int end = 0;
-    for (std::size_t band = 0; band < bands; ++band) {
-        end = std::max(end, rows_[band].end);
-        rows_in_flight_ = std::max(rows_in_flight_, end - first_row_[band]);
-    }
 }
 
-int SplatReach::first_row_of_share(const SplatTiles& tiles, int index, int count) const {
-    if (index == 0) return 0;
-    if (index == count) return target_height_;
-    long total = 0;
-    for (std::size_t i = 0; i < tiles.points.size(); ++i) total += cost_of_band(tiles, i);
-    const long wanted = total * index / count;
-    std::size_t band = 0;
-    long before = 0;
-    while (band + 1 < tiles.points.size() && before + cost_of_band(tiles, band) < wanted) {
-        before += cost_of_band(tiles, band++);
-    }
-    const RowRange& rows = rows_[band];
-    if (rows.begin >= rows.end) return target_height_ * index / count;
-    return rows.begin + static_cast<int>((wanted - before) * (rows.end - rows.begin) / cost_of_band(tiles, band));
-}
-
-RowRange SplatReach::share(const SplatTiles& tiles, int index, int count) const {
-    // Bands need not land in their own order (a picture upside down), so the cuts are put in order here.
-    RowRange rows{0, target_height_};
-    for (int i = 0; i <= index; ++i) rows.begin = std::max(rows.begin, first_row_of_share(tiles, i, count));
-    rows.end = std::max(rows.begin, first_row_of_share(tiles, index + 1, count));
-    return rows;
+int SplatReach::tiles_outside() const {
+    return static_cast<int>(std::ranges::count_if(rects_, [](const PixelRect& rect) { return rect.empty(); }));
 }
 
 }  // namespace lw

@@ -215,23 +215,23 @@ void resolve_rows_here(const SplatInput& input, const BackgroundLookup& backgrou
     const glm::mat3& h = background.source_px_from_target_px;
     for (int y = target_rows.begin; y < target_rows.end; ++y) {
         WinnerKey* row = keys.row(y);
-        int x = 0;
-        for (; x + lanes <= keys.width(); x += lanes) resolve_keys(d, input, h, x, y, row + x, out);
-        for (; x < keys.width(); ++x) resolve_keys(d1, input, h, x, y, row + x, out);
+        const int end = keys.first_column() + keys.width();
+        int x = keys.first_column();
+        for (; x + lanes <= end; x += lanes, row += lanes) resolve_keys(d, input, h, x, y, row, out);
+        for (; x < end; ++x, ++row) resolve_keys(d1, input, h, x, y, row, out);
     }
 }
 
-void resolve_unreached_rows_here(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows,
-                                 DisplayFrame& out) {
+void resolve_unreached_here(const SplatInput& input, const BackgroundLookup& background, const PixelRect& target,
+                            DisplayFrame& out) {
     const DF d;
     const hn::CappedTag<float, 1> d1;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const glm::mat3& h = background.source_px_from_target_px;
-    const int width = out.colour.width();
-    for (int y = target_rows.begin; y < target_rows.end; ++y) {
-        int x = 0;
-        for (; x + lanes <= width; x += lanes) resolve_unreached(d, input, h, x, y, out);
-        for (; x < width; ++x) resolve_unreached(d1, input, h, x, y, out);
+    for (int y = target.first_px.y; y < target.end_px.y; ++y) {
+        int x = target.first_px.x;
+        for (; x + lanes <= target.end_px.x; x += lanes) resolve_unreached(d, input, h, x, y, out);
+        for (; x < target.end_px.x; ++x) resolve_unreached(d1, input, h, x, y, out);
     }
 }
 
@@ -243,16 +243,16 @@ HWY_AFTER_NAMESPACE();
 namespace lw {
 
 HWY_EXPORT(resolve_rows_here);
-HWY_EXPORT(resolve_unreached_rows_here);
+HWY_EXPORT(resolve_unreached_here);
 
 void resolve_rows(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows, KeyRing& keys,
                   DisplayFrame& out) {
     HWY_DYNAMIC_DISPATCH(resolve_rows_here)(input, background, target_rows, keys, out);
 }
 
-void resolve_unreached_rows(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows,
-                            DisplayFrame& out) {
-    HWY_DYNAMIC_DISPATCH(resolve_unreached_rows_here)(input, background, target_rows, out);
+void resolve_unreached(const SplatInput& input, const BackgroundLookup& background, const PixelRect& target,
+                       DisplayFrame& out) {
+    HWY_DYNAMIC_DISPATCH(resolve_unreached_here)(input, background, target, out);
 }
 
 }  // namespace lw

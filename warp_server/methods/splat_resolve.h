@@ -7,6 +7,7 @@
 #include "warp_server/methods/key_ring.h"
 #include "warp_server/methods/row_range.h"
 #include "warp_server/methods/splat_input.h"
+#include "warp_server/pixel_rect.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
@@ -17,12 +18,12 @@ struct BackgroundLookup {
     glm::mat3 source_px_from_target_px{1.0F};  ///< homography of the rotation, columns x, y, 1
 };
 
-/// Turns the keys of `target_rows` into colour, depth and coverage, and leaves those keys 0.
+/// Turns the keys of `target_rows` into colour, depth and coverage of the ring's columns, and leaves those keys 0.
 void resolve_rows(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows, KeyRing& keys,
                   DisplayFrame& out);
 
-/// The same for rows that no point has reached: background or holes.
-void resolve_unreached_rows(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows,
-                            DisplayFrame& out);
+/// The same for pixels that no point has reached: background or holes.
+void resolve_unreached(const SplatInput& input, const BackgroundLookup& background, const PixelRect& target,
+                       DisplayFrame& out);
 
 }  // namespace lw

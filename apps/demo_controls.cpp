@@ -12,6 +12,7 @@ class DemoFill final : public Fill {
 public:
     DemoFill(std::unique_ptr<Fill> fill, const DemoControls& controls) : fill_{std::move(fill)}, controls_{controls} {}
     [[nodiscard]] std::string_view name() const override { return fill_->name(); }
+    void work_on(BandPool* threads) override { fill_->work_on(threads); }
     void apply(DisplayFrame& frame, const FillGuide& guide) override {
         if (!controls_.holes_shown.load(std::memory_order_relaxed)) return fill_->apply(frame, guide);
         const auto coverage = frame.coverage.pixels();
@@ -42,6 +43,13 @@ void SwitchingMethod::warp(const Layer& layer, const WarpTarget& target, Display
     WarpMethod& method = active();
     method.warp(layer, target, out);
     counters_ = method.counters();
+}
+
+BandPool* SwitchingMethod::threads() {
+    for (const auto& method : methods_) {
+        if (BandPool* threads = method->threads()) return threads;
+    }
+    return nullptr;
 }
 
 std::vector<std::string> SwitchingMethod::labels() const {

@@ -39,6 +39,8 @@ public:
         return active().prepare(layer);
     }
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override;
+    /// Of whichever method has some: they are idle between warps.
+    [[nodiscard]] BandPool* threads() override;
 
     [[nodiscard]] std::vector<std::string> labels() const;
 

@@ -21,6 +21,10 @@ public:
     /// No allocation once sizes are seen.
     /// @param guide  of the motion from the layer to the frame
     virtual void apply(DisplayFrame& frame, const FillGuide& guide) = 0;
+
+    /// From now on apply() may use these threads too; null: the caller's alone. The pool outlives this, and is idle
+    /// while apply() runs. The picture is the same on any number of them.
+    virtual void work_on(BandPool* /*threads*/) {}
 };
 
 /// Shown where nothing at all is known.

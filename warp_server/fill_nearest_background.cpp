@@ -1,7 +1,10 @@
 #include "warp_server/fill_nearest_background.h"
 
 #include <algorithm>
+#include <functional>
+#include <vector>
 
+#include "warp_server/band_pool.h"
 #include "warp_server/hole_ends.h"
 
 namespace lw {
@@ -12,21 +15,32 @@ public:
     [[nodiscard]] std::string_view name() const override { return "nearest-background"; }
 
     void apply(DisplayFrame& frame, const FillGuide& /*guide*/) override {
-        ends_.find(frame);
-        for (std::size_t i = 0; i < ends_.runs().size(); ++i) {
-            const HoleRun& run = ends_.runs()[i];
-            prefetch(frame, ends_.runs()[std::min(i + kAhead, ends_.runs().size() - 1)]);
-            copy(frame, run, ends_.background_of(frame, run).index);
-        }
-        // Last, because the passes above tell holes from reached pixels by it.
-        for (const HoleRun& run : ends_.runs()) {
-            const auto row = frame.coverage.row(run.y);
-            std::fill(row.begin() + run.begin, row.begin() + run.end, Coverage::filled);
-        }
+        ends_.find(frame, threads_);
+        frame_ = &frame;
+        if (threads_ == nullptr || ends_.hole_count() < HoleEnds::kWorthThreads) return fill_share(0, 1);
+        threads_->run(fill_share_);
+    }
+
+    void work_on(BandPool* threads) override {
+        threads_ = threads;
+        scratch_.resize(threads == nullptr ? 1 : static_cast<std::size_t>(threads->threads()));
     }
 
 private:
     static constexpr std::size_t kAhead = 16;
+
+    // What is copied was reached, and what is written was not: shares do not meet.
+    void fill_share(int index, int count) {
+        const std::span<const HoleRun> runs = ends_.share(index, count);
+        HoleScratch& scratch = scratch_[static_cast<std::size_t>(index)];
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            const HoleRun& run = runs[i];
+            prefetch(*frame_, runs[std::min(i + kAhead, runs.size() - 1)]);
+            copy(*frame_, run, ends_.background_of(*frame_, run, scratch).index);
+            const auto coverage = frame_->coverage.row(run.y);
+            std::fill(coverage.begin() + run.begin, coverage.begin() + run.end, Coverage::filled);
+        }
+    }
 
     // The ends of a short run, which most are: reading them was what the time went for.
     static void prefetch(const DisplayFrame& frame, const HoleRun& run) {
@@ -57,6 +71,11 @@ private:
     }
 
     HoleEnds ends_;
+    DisplayFrame* frame_ = nullptr;
+    BandPool* threads_ = nullptr;
+    std::vector<HoleScratch> scratch_{1};  // one for each thread
+    // Kept, because making a function object may allocate.
+    std::function<void(int)> fill_share_ = [this](int thread) { fill_share(thread, threads_->threads()); };
 };
 
 }  // namespace

@@ -31,7 +31,7 @@ public:
         for (const HoleRun& run : ends_.runs()) {
             const int middle = (run.begin + run.end) / 2 / kFillTile_px;
             const FillCosts costs = costs_along(towards_.at(middle, run.y / kFillTile_px));
-            set_limits(frame, run, ends_.background_of(frame, run, costs));
+            set_limits(frame, run, ends_.background_of(frame, run, scratch_, costs));
         }
         collect_tile_runs();
         const FillPixels pixels{frame.colour.pixels().data(), frame.depth.pixels().data(), frame.coverage.size_px()};
@@ -174,6 +174,7 @@ private:
     }
 
     HoleEnds ends_;
+    HoleScratch scratch_;
     glm::ivec2 size_px_{0};
     std::vector<FillLevel> levels_;  // the first is the picture and stays empty
     Image<std::uint8_t> tiles_;      // kBeside, kWithHoles or both; 0 for those that no hole is near

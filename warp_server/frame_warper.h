@@ -21,7 +21,9 @@ namespace lw {
 class FrameWarper final : public PictureMaker {
 public:
     FrameWarper(std::unique_ptr<WarpMethod> method, std::unique_ptr<Fill> fill)
-        : method_{std::move(method)}, fill_{std::move(fill)}, stepped_{dynamic_cast<SteppedWarp*>(method_.get())} {}
+        : method_{std::move(method)}, fill_{std::move(fill)}, stepped_{dynamic_cast<SteppedWarp*>(method_.get())} {
+        fill_->work_on(method_->threads());
+    }
 
     /// From specifications, "points:size_px=2" and "nearest-background".
     [[nodiscard]] static Result<FrameWarper> create(std::string_view method, std::string_view fill);

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <limits>
 
+#include "warp_server/band_pool.h"
+
 namespace lw {
 namespace {
 
@@ -33,59 +35,79 @@ void spread_sideways(std::span<std::int32_t> chosen) {
 
 }  // namespace
 
-void HoleEnds::find(const DisplayFrame& frame) {
+void HoleEnds::find(const DisplayFrame& frame, BandPool* threads) {
     width_ = frame.coverage.width();
-    const auto columns = static_cast<std::size_t>(width_);
-    rows_.resize(columns);
-    depths_.resize(columns);
-    chosen_.resize(columns);
-    costs_.resize(columns);
     collect_runs(frame);
-    find_ends_below(frame);
+    for (ColumnEnds* ends : {&above_, &below_}) {
+        ends->row.resize(hole_count_);
+        ends->depth.resize(hole_count_);
+        ends->rows.resize(static_cast<std::size_t>(width_));
+        ends->depths.resize(static_cast<std::size_t>(width_));
+    }
+    frame_ = &frame;
+    if (threads == nullptr || hole_count_ < kWorthThreads) return find_ends(frame, 0, 1);
+    threads_ = threads->threads();
+    threads->run(find_ends_);
 }
 
 void HoleEnds::collect_runs(const DisplayFrame& frame) {
     runs_.clear();
-    std::size_t holes = 0;
+    hole_count_ = 0;
     for (int y = 0; y < frame.coverage.height(); ++y) {
         const Coverage* coverage = frame.coverage.row(y).data();
         for (int x = next_hole(coverage, 0, width_); x < width_;) {
-            HoleRun run{y, x, x, holes};
+            HoleRun run{y, x, x, hole_count_};
             while (run.end < width_ && coverage[run.end] == Coverage::hole) ++run.end;
-            holes += static_cast<std::size_t>(run.end - run.begin);
+            hole_count_ += static_cast<std::size_t>(run.end - run.begin);
             x = next_hole(coverage, run.end, width_);
             runs_.push_back(run);
         }
     }
-    row_below_.resize(holes);
-    depth_below_.resize(holes);
 }
 
-// Scanning along columns, rows_ and depths_ hold the last reached pixel of each one, where the last row that was
-// seen there is a hole. `beside` is the row that the scan comes from; outside of the image nothing is reached.
-void HoleEnds::update_columns(const DisplayFrame& frame, const HoleRun& run, int beside) {
+// Along columns one pixel follows from the one beside it, so each side is one thread's: two can share the work.
+void HoleEnds::find_ends(const DisplayFrame& frame, int thread, int threads) {
+    if (thread == 0) {
+        for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) follow(frame, *run, run->y + 1, below_);
+    }
+    if (thread == 1 || threads == 1) {
+        for (const HoleRun& run : runs_) follow(frame, run, run.y - 1, above_);
+    }
+}
+
+// While a scan goes along columns, `rows` and `depths` hold the last reached pixel of each one, where the last row that
+// was seen there is a hole. `beside` is the row that the scan comes from; outside of the image nothing is reached.
+void HoleEnds::follow(const DisplayFrame& frame, const HoleRun& run, int beside, ColumnEnds& ends) {
     if (beside < 0 || beside >= frame.coverage.height()) {
-        std::fill(rows_.begin() + run.begin, rows_.begin() + run.end, kNone);
-        std::fill(depths_.begin() + run.begin, depths_.begin() + run.end, std::numeric_limits<float>::infinity());
-        return;
+        std::fill(ends.rows.begin() + run.begin, ends.rows.begin() + run.end, kNone);
+        std::fill(ends.depths.begin() + run.begin, ends.depths.begin() + run.end,
+                  std::numeric_limits<float>::infinity());
+    } else {
+        follow_columns(run.begin, run.end, beside, frame.coverage.row(beside).data(), frame.depth.row(beside).data(),
+                       ends.rows.data(), ends.depths.data());
     }
-    follow_columns(run.begin, run.end, beside, frame.coverage.row(beside).data(), frame.depth.row(beside).data(),
-                   rows_.data(), depths_.data());
+    std::copy(ends.rows.begin() + run.begin, ends.rows.begin() + run.end,
+              ends.row.begin() + static_cast<std::ptrdiff_t>(run.first_hole));
+    std::copy(ends.depths.begin() + run.begin, ends.depths.begin() + run.end,
+              ends.depth.begin() + static_cast<std::ptrdiff_t>(run.first_hole));
 }
 
-// Bottom row first; what is below each hole pixel is kept until the way back.
-void HoleEnds::find_ends_below(const DisplayFrame& frame) {
-    for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) {
-        update_columns(frame, *run, run->y + 1);
-        std::copy(rows_.begin() + run->begin, rows_.begin() + run->end,
-                  row_below_.begin() + static_cast<std::ptrdiff_t>(run->first_hole));
-        std::copy(depths_.begin() + run->begin, depths_.begin() + run->end,
-                  depth_below_.begin() + static_cast<std::ptrdiff_t>(run->first_hole));
-    }
+std::span<const HoleRun> HoleEnds::share(int index, int count) const {
+    const auto first_of = [&](int part) {
+        const std::size_t hole = hole_count_ * static_cast<std::size_t>(part) / static_cast<std::size_t>(count);
+        return static_cast<std::size_t>(std::ranges::lower_bound(runs_, hole, {}, &HoleRun::first_hole) -
+                                        runs_.begin());
+    };
+    const std::size_t first = first_of(index);
+    return std::span{runs_}.subspan(first, first_of(index + 1) - first);
 }
 
-HoleBackground HoleEnds::background_of(const DisplayFrame& frame, const HoleRun& run, const FillCosts& costs) {
-    update_columns(frame, run, run.y - 1);
+HoleBackground HoleEnds::background_of(const DisplayFrame& frame, const HoleRun& run, HoleScratch& scratch,
+                                       const FillCosts& costs) const {
+    if (scratch.chosen.size() < static_cast<std::size_t>(width_)) {
+        scratch.chosen.resize(static_cast<std::size_t>(width_));
+        scratch.cost.resize(static_cast<std::size_t>(width_));
+    }
     FillRun input;
     input.y = run.y;
     input.begin = run.begin;
@@ -94,16 +116,16 @@ HoleBackground HoleEnds::background_of(const DisplayFrame& frame, const HoleRun&
     const int row_index = run.y * width_;
     if (run.begin > 0) input.left = {frame.depth.at(run.begin - 1, run.y), row_index + run.begin - 1};
     if (run.end < width_) input.right = {frame.depth.at(run.end, run.y), row_index + run.end};
-    input.row_above = rows_.data() + run.begin;
-    input.depth_above = depths_.data() + run.begin;
-    input.row_below = row_below_.data() + run.first_hole;
-    input.depth_below = depth_below_.data() + run.first_hole;
+    input.row_above = above_.row.data() + run.first_hole;
+    input.depth_above = above_.depth.data() + run.first_hole;
+    input.row_below = below_.row.data() + run.first_hole;
+    input.depth_below = below_.depth.data() + run.first_hole;
     input.costs = costs;
-    choose_background(input, chosen_.data(), costs_.data());
-    const std::span<std::int32_t> chosen{chosen_.data(), static_cast<std::size_t>(run.end - run.begin)};
+    choose_background(input, scratch.chosen.data(), scratch.cost.data());
+    const std::span<std::int32_t> chosen{scratch.chosen.data(), static_cast<std::size_t>(run.end - run.begin)};
     // A row without any reached pixel is one run; only there can a column be missing too.
     if (run.begin == 0 && run.end == width_) spread_sideways(chosen);
-    return {chosen, {costs_.data(), chosen.size()}};
+    return {chosen, {scratch.cost.data(), chosen.size()}};
 }
 
 }  // namespace lw

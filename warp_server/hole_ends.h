@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -19,43 +20,67 @@ struct HoleRun {
     std::size_t first_hole = 0;  ///< index of its first pixel among all hole pixels, row by row
 };
 
-/// One entry for each pixel of a run; valid until the next one is asked for.
+/// What one thread needs to look for backgrounds; keeps its memory.
+struct HoleScratch {
+    std::vector<std::int32_t> chosen;
+    std::vector<std::int32_t> cost;
+};
+
+/// One entry for each pixel of a run; valid until the scratch is used again.
 struct HoleBackground {
     std::span<const std::int32_t> index;  ///< of the pixel in the picture that continues behind it
     std::span<const std::int32_t>
         cost;  ///< of its distance (choose_background()); larger than any other where it is a guess
 };
 
-/// Owns its scratch memory; no allocation once sizes are seen. Its cost grows with the holes, not with the picture.
-/// One thread at a time.
+/// No allocation once sizes are seen. Its cost grows with the holes, not with the picture. One thread at a time finds;
+/// then any number may ask for backgrounds, each with a scratch of its own.
 class HoleEnds {
 public:
-    /// Finds the runs, top row first, and what lies below each hole pixel.
-    void find(const DisplayFrame& frame);
+    /// Fewer are filled before another thread has woken.
+    static constexpr std::size_t kWorthThreads = 4096;
+
+    HoleEnds() = default;
+    HoleEnds(const HoleEnds&) = delete;
+    HoleEnds& operator=(const HoleEnds&) = delete;
+
+    /// Finds the runs, top row first, and what lies above and below each hole pixel.
+    /// @param threads  null: the caller's alone
+    void find(const DisplayFrame& frame, BandPool* threads = nullptr);
 
     [[nodiscard]] std::span<const HoleRun> runs() const { return runs_; }
-    [[nodiscard]] std::size_t hole_count() const { return row_below_.size(); }
+    [[nodiscard]] std::size_t hole_count() const { return hole_count_; }
+    /// Share `index` of `count` of the runs, of about equally many holes.
+    [[nodiscard]] std::span<const HoleRun> share(int index, int count) const;
 
     /// For each pixel of the run what continues behind it: along its row and column the farther surface
     /// (choose_background()); where neither row nor column was reached that of the closest hole of its row that has
-    /// one. -1 only in a picture of nothing but holes. Runs must be asked for in the order of runs(), once each after
-    /// find(), and the picture's coverage must not change in between; colours and depths of holes may.
-    [[nodiscard]] HoleBackground background_of(const DisplayFrame& frame, const HoleRun& run,
-                                               const FillCosts& costs = {});
+    /// one. -1 only in a picture of nothing but holes. Depths of reached pixels are those of find().
+    [[nodiscard]] HoleBackground background_of(const DisplayFrame& frame, const HoleRun& run, HoleScratch& scratch,
+                                               const FillCosts& costs = {}) const;
 
 private:
+    // What ends the columns of hole pixels on one side.
+    struct ColumnEnds {
+        std::vector<std::int32_t> row;  // per hole pixel: the reached row on that side, or -1
+        std::vector<float> depth;
+        std::vector<std::int32_t> rows;  // per column, see follow()
+        std::vector<float> depths;
+    };
+
     void collect_runs(const DisplayFrame& frame);
-    void update_columns(const DisplayFrame& frame, const HoleRun& run, int beside);
-    void find_ends_below(const DisplayFrame& frame);
+    void find_ends(const DisplayFrame& frame, int thread, int threads);
+    static void follow(const DisplayFrame& frame, const HoleRun& run, int beside, ColumnEnds& ends);
 
     int width_ = 0;
-    std::vector<HoleRun> runs_;       // top row first
-    std::vector<std::int32_t> rows_;  // per column, see update_columns()
-    std::vector<float> depths_;
-    std::vector<std::int32_t> row_below_;  // per hole pixel: the reached row below, or -1
-    std::vector<float> depth_below_;
-    std::vector<std::int32_t> chosen_;  // of one run
-    std::vector<std::int32_t> costs_;
+    std::size_t hole_count_ = 0;
+    std::vector<HoleRun> runs_;  // top row first
+    ColumnEnds above_;
+    ColumnEnds below_;
+    const DisplayFrame* frame_ = nullptr;
+    int threads_ = 1;
+    // Kept, because making a function object may allocate.
+    std::function<void(int)> find_ends_ = [this](int thread) { find_ends(*frame_, thread, threads_); };
 };
 
 }  // namespace lw

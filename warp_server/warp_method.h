@@ -17,6 +17,8 @@
 
 namespace lw {
 
+class BandPool;
+
 /// What became of a target pixel.
 enum class Coverage : std::uint8_t {
     hole = 0,     ///< no source pixel reached it; colour and depth are unspecified until filled
@@ -114,6 +116,9 @@ public:
     /// target. Nearest surface wins; samples nearer than the target's near plane are skipped. A method that needs
     /// prepare() runs it itself when the layer was not prepared for it.
     virtual void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) = 0;
+
+    /// The threads it works on, lent to what comes after it in the same display frame; null: the caller's alone.
+    [[nodiscard]] virtual BandPool* threads() { return nullptr; }
 
     /// Whether it shows frames as they were drawn instead of where things are now.
     [[nodiscard]] virtual bool shows_frames_as_drawn() const { return false; }

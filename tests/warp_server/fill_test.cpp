@@ -1,7 +1,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "warp_server/band_pool.h"
 #include "warp_server/fill.h"
+#include "warp_server/hole_ends.h"
 
 namespace lw {
 namespace {
@@ -132,6 +136,42 @@ TEST_P(BackgroundFill, EqualFramesGiveEqualBytesWhateverCameBefore) {
     (*fill)->apply(second, kBackgroundOnTheLeft);
     EXPECT_EQ(first.colour, second.colour);
     EXPECT_EQ(first.depth, second.depth);
+}
+
+// Blocks of holes, some rows of nothing but holes, every pixel with a colour and a depth of its own.
+DisplayFrame frame_with_many_holes() {
+    DisplayFrame frame;
+    frame.resize({200, 120});
+    std::mt19937 random{5};
+    for (int y = 0; y < frame.colour.height(); ++y) {
+        for (int x = 0; x < frame.colour.width(); ++x) {
+            const auto bits = static_cast<std::uint32_t>(random());
+            const bool hole = y < 3 || (y > 50 && y < 54) || (x / 17 + y / 13) % 2 == 0;
+            frame.coverage.at(x, y) = hole ? Coverage::hole : Coverage::reached;
+            frame.colour.at(x, y) = {static_cast<std::uint8_t>(bits), static_cast<std::uint8_t>(bits >> 8U),
+                                     static_cast<std::uint8_t>(bits >> 16U), 255};
+            frame.depth.at(x, y) = 0.01F * static_cast<float>(1 + bits % 97);
+        }
+    }
+    return frame;
+}
+
+TEST(NearestBackgroundFill, OnSeveralThreadsIsTheSamePicture) {
+    DisplayFrame alone = frame_with_many_holes();
+    fill_holes("nearest-background", alone);
+    for (const int threads : {1, 2, 3}) {
+        BandPool pool{threads};
+        auto fill = make_fill("nearest-background");
+        (*fill)->work_on(&pool);
+        for (int repeat = 0; repeat < 2; ++repeat) {
+            DisplayFrame frame = frame_with_many_holes();
+            ASSERT_LT(HoleEnds::kWorthThreads, hole_fraction(frame) * static_cast<double>(frame.depth.pixels().size()));
+            (*fill)->apply(frame, kNoGuide);
+            EXPECT_EQ(frame.colour, alone.colour) << threads;
+            EXPECT_EQ(frame.depth, alone.depth) << threads;
+            EXPECT_EQ(frame.coverage, alone.coverage) << threads;
+        }
+    }
 }
 
 TEST(NearestBackgroundFill, OfRowAndColumnTakesTheFartherToo) {

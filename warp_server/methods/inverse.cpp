@@ -25,6 +25,7 @@ public:
         : label_{std::move(label)}, pool_{threads}, steps_{steps} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
+    [[nodiscard]] BandPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         const CpuPixels& pixels = checked_cpu_pixels(layer);

@@ -154,6 +154,7 @@ public:
     SurfaceMethod(std::string label, int threads) : label_{std::move(label)}, pool_{threads} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
+    [[nodiscard]] BandPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         return classify_surfaces(checked_cpu_pixels(layer));

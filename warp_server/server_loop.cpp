@@ -89,7 +89,8 @@ void ServerLoop::make_picture(const RenderedFrame& frame, const PacerPlan& plan,
 
     if (frame.index != last_frame_index_) ++frames_shown_;
     last_frame_index_ = frame.index;
-    pacer_.finished({plan.refresh, plan.wake, *record.presented});
+    // A picture shown again says nothing about how long the next new one takes.
+    if (record.counters.pictures_reused == 0) pacer_.finished({plan.refresh, plan.wake, *record.presented});
     write_down(record);
 }
 

@@ -156,7 +156,7 @@ DisplayFrame frame_with_many_holes() {
     return frame;
 }
 
-TEST(NearestBackgroundFill, OnSeveralThreadsIsTheSamePicture) {
+TEST(NearestBackgroundFill, AnyNumberOfThreadsGivesTheSamePicture) {
     DisplayFrame alone = frame_with_many_holes();
     fill_holes("nearest-background", alone);
     for (const int threads : {1, 2, 3}) {

@@ -92,9 +92,9 @@ TEST_P(PacerRates, ASteadyDisplayGetsItsPicturesWithLittleLead) {
     Pacer pacer;
     const Outcome outcome = run(pacer, UnsteadyDisplay{GetParam(), {}, kSeconds}, NoisyWork{});
     EXPECT_EQ(outcome.pictures, outcome.refreshes);
-    // One refresh in 500 is what finding the edge may cost, and as many again what the tail brings by itself.
-    EXPECT_LE(outcome.late, outcome.refreshes / 250);
-    EXPECT_LE(to_ms(outcome.mean_lead), 5.5);
+    // What was the longest work of 10,000 may be late now and then; beyond it there is half a millisecond.
+    EXPECT_LE(outcome.late, outcome.refreshes / 1000);
+    EXPECT_LE(to_ms(outcome.mean_lead), 5.8);
 }
 
 // Refreshes come up to 3 % of a period early or late, as a window system's time stamps have it.

@@ -62,8 +62,8 @@ TEST(Pacer, SteadyWorkLeavesLittleMoreLeadThanItNeeds) {
     run(pacer, 1.0, [] { return from_ms(3.0); });
     const RunResult result = run(pacer, 10.0, [] { return from_ms(3.0); });
     EXPECT_EQ(result.missed, 0);
-    // The smallest margin is 1.25 ms.
-    EXPECT_LE(to_ms(result.mean_lead), 3.0 + 1.26);
+    // The smallest margin is an eighth of a period.
+    EXPECT_LE(to_ms(result.mean_lead), 3.01 + 0.125 * 1000.0 / kHz);
 }
 
 // A head that turns away from where each frame was drawn, ten frames a second.
@@ -75,7 +75,7 @@ TEST(Pacer, FollowsWorkThatGrowsWithinTheLifeOfEachFrame) {
     const RunResult result = run(pacer, 10.0, work);
     EXPECT_EQ(result.missed, 0);
     // 2 to 6 ms, 4 in the mean, growing by half a millisecond at a time.
-    EXPECT_LE(to_ms(result.mean_lead), 4.5 + 0.5 + 1.26);
+    EXPECT_LE(to_ms(result.mean_lead), 4.5 + 0.5 + 0.126 * 1000.0 / kHz);
 }
 
 TEST(Pacer, NeverWakesBeforeNow) {
@@ -104,7 +104,7 @@ TEST(Pacer, ASingleDisturbanceDoesNotKeepTheLeadLong) {
     run(pacer, 8.0, [] { return from_ms(3.0); });
     // The window forgets the 30 ms at once (one of 256 is beyond p99); the margin's step of 0.5 ms wears off at 1/500
     // per refresh: after 700 refreshes it is gone.
-    EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.05 + 1.25);
+    EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.05 + 0.125 * 1000.0 / kHz);
 }
 
 TEST(Pacer, BacksOffWhenWorkGrows) {

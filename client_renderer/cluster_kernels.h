@@ -176,41 +176,12 @@ private:
 /// the instance's, and the directions to the eye differ by an angle that is the instance's: a third of the arithmetic.
 class SmallPlacement {
 public:
-    SmallPlacement(const Clusters& clusters, const ClusterRange& range, const ClusterPlacement& placement,
+    SmallPlacement(const Clusters::View& view, const ClusterRange& range, const ClusterPlacement& placement,
                    const ProjectingRows& rows, const InstanceRect& rect) {
-        const Clusters::View& view = clusters.view();
-        if (!rect.known || view.least_size_per_distance > 0.0F) return;
+        applies_ = rect.known && !(view.least_size_per_distance > 0.0F) &&
+                   take_axis(0, rows.x_px, view, range, rows, rect) &&
+                   take_axis(1, rows.y_px, view, range, rows, rect) && take_direction(range, placement);
         z_row_ = rows.distance;
-        // 1 / (z - depth of a cluster), over 1 / z.
-        const float nearest = rect.distance - rect.depth;
-        const float largest_depth = glm::dot(glm::abs(rect.z_row), range.largest_half_object) + rows.rounding[2];
-        const float nearer = nearest / (nearest - largest_depth);
-        for (std::size_t axis = 0; axis < 2; ++axis) {
-            const float place = rect.place_px[axis];
-            const float reach = rect.reach_px[axis];
-            if (!(place - reach > 0.0F) || !(place + reach < view.buffer_relative.size_px[axis])) return;
-            const glm::vec3 weights = nearer * (rect.across[axis] + reach * glm::abs(rect.z_row));
-            if (!(glm::dot(weights, range.largest_half_object) < nearest)) return;  // two pixels across
-            const float scale = view.buffer_relative.samples_per_px[axis];
-            const std::array<float, 4>& from = axis == 0 ? rows.x_px : rows.y_px;
-            for (std::size_t k = 0; k < 3; ++k) {
-                weights_[axis][k] = scale * weights[static_cast<glm::length_t>(k)];
-                rows_[axis][k] = scale * from[k];
-            }
-            rows_[axis][3] = scale * from[3];
-            weights_[axis][3] = scale * nearer * (rect.rounding[axis] + reach * rows.rounding[2]);
-            snap_[axis] = scale * kSnapPx;
-        }
-        const glm::vec3 centre = 0.5F * (range.most_object + range.least_object);
-        const glm::vec3 half = 0.5F * (range.most_object - range.least_object);
-        const glm::vec3 from_eye = centre - placement.eye_object;
-        const float distance = glm::length(from_eye);
-        const float radius = glm::length(half) + placement.margin_object;
-        direction_object_ = from_eye / distance;
-        // Seen from an eye at the margin, a place of the instance lies in a direction that is off by that angle.
-        if (!(radius < distance)) return;
-        off_ = radius / (distance - radius);
-        applies_ = true;
     }
 
     [[nodiscard]] bool applies() const { return applies_; }
@@ -237,13 +208,44 @@ public:
     }
 
 private:
+    /// False where the instance is too large.
+    bool take_axis(std::size_t axis, const std::array<float, 4>& row, const Clusters::View& view,
+                   const ClusterRange& range, const ProjectingRows& rows, const InstanceRect& rect) {
+        const float place = rect.place_px[axis];
+        const float reach = rect.reach_px[axis];
+        if (!(place - reach > 0.0F) || !(place + reach < view.buffer_relative.size_px[axis])) return false;
+        // 1 / (z - depth of a cluster), over 1 / z.
+        const float nearest = rect.distance - rect.depth;
+        const float largest_depth = glm::dot(glm::abs(rect.z_row), range.largest_half_object) + rows.rounding[2];
+        const float nearer = nearest / (nearest - largest_depth);
+        const glm::vec3 weights = nearer * (rect.across[axis] + reach * glm::abs(rect.z_row));
+        if (!(glm::dot(weights, range.largest_half_object) < nearest)) return false;  // two pixels across
+        const float scale = view.buffer_relative.samples_per_px[axis];
+        for (std::size_t k = 0; k < 4; ++k) rows_[axis][k] = scale * row[k];
+        weights_[axis] = {scale * weights.x, scale * weights.y, scale * weights.z,
+                          scale * nearer * (rect.rounding[axis] + reach * rows.rounding[2])};
+        snap_[axis] = scale * kSnapPx;
+        return true;
+    }
+
+    /// False where an eye within the margin may be beside any of it.
+    bool take_direction(const ClusterRange& range, const ClusterPlacement& placement) {
+        const glm::vec3 from_eye = 0.5F * (range.most_object + range.least_object) - placement.eye_object;
+        const float distance = glm::length(from_eye);
+        const float radius = 0.5F * glm::length(range.most_object - range.least_object) + placement.margin_object;
+        if (!(radius < distance)) return false;
+        direction_object_ = from_eye / distance;
+        off_ = radius / (distance - radius);
+        return true;
+    }
+
     bool applies_ = false;
     std::array<float, 4> z_row_{};
     std::array<std::array<float, 4>, 2> rows_{};     ///< of x and y, in samples
     std::array<std::array<float, 4>, 2> weights_{};  ///< of half sizes
     std::array<float, 2> snap_{};
-    glm::vec3 direction_object_{0.0F};
-    float off_ = 0.0F;
+    glm::vec3 direction_object_{0.0F};  ///< from the eye to the middle
+    float off_ = 0.0F;                  ///< to any place of it from any eye within the margin, at most so different
 };
 
 class SmallInstanceTest {

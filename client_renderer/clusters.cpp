@@ -33,7 +33,7 @@ void test_here(const Clusters& clusters, const ClusterRange& range, const Cluste
                std::uint64_t* shown, ClusterCounters& counters) {
     const ProjectingRows rows = rows_of(range, placement);
     const InstanceRect rect{range, rows, clusters.view().buffer_relative.near_m};
-    const SmallPlacement small{clusters, range, placement, rows, rect};
+    const SmallPlacement small{clusters.view(), range, placement, rows, rect};
     if (small.applies()) {
         test_all(SmallInstanceTest{small, counters}, clusters, range, shown);
     } else {

@@ -18,7 +18,7 @@ Culling::Culling(const PlacedInstances& placed, const CullingSettings& settings)
 void Culling::move() {
     for (const std::uint32_t mover : placed_.movers()) {
         if (tree_) bounds_[mover] = placed_[mover].bounds_world;
-        boxes_.set(mover, placed_[mover].bounds_world);
+        if (!tree_ || !portals_.empty()) boxes_.set(mover, placed_[mover].bounds_world);
     }
     if (tree_) tree_->move(placed_.movers(), bounds_);
     occluders_.move(placed_);

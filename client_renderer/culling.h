@@ -66,7 +66,7 @@ private:
     void walk_tree(const Camera& camera, bool with_occlusion);
     void walk_list(const Camera& camera, bool with_occlusion);
 
-    BoxList boxes_;                      ///< few objects: one after the other
+    BoxList boxes_;                      ///< few objects, or those in rooms: one after the other
     PortalWalk portals_;                 ///< of a building
     std::optional<BoxTree> tree_;        ///< many
     std::vector<scene::Bounds> bounds_;  ///< for the tree

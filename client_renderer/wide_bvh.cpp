@@ -109,7 +109,9 @@ void WideBvh::move(const scene::Bvh& bvh, std::span<const std::uint32_t> moved, 
         if (slot == kNone) continue;
         set_box(slot, boxes[item]);
         for (std::uint32_t node = bvh.leaf_of(item); node != kNone; node = bvh.parent(node)) {
-            if (slots_of_nodes_[node] != kNone) set_box(slots_of_nodes_[node], bounds_of(bvh.nodes()[node]));
+            if (slots_of_nodes_[node] == kNone) continue;
+            // A node that does not change leaves those above it as they are.
+            if (!set_box(slots_of_nodes_[node], bounds_of(bvh.nodes()[node]))) break;
         }
     }
 }

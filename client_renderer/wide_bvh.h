@@ -53,8 +53,8 @@ public:
 private:
     struct Builder;
 
-    void set_box(std::uint32_t slot, const scene::Bounds& bounds) {
-        blocks_[slot / kMostChildren].boxes.set(slot % kMostChildren, bounds);
+    bool set_box(std::uint32_t slot, const scene::Bounds& bounds) {
+        return blocks_[slot / kMostChildren].boxes.set(slot % kMostChildren, bounds);
     }
 
     Child root_;

@@ -215,6 +215,40 @@ TEST(SurfaceMethod, WhatIsNotSharedIsWhatTheFillFound) {
     EXPECT_EQ(frame.coverage.at(34, 16), Coverage::filled);
 }
 
+// Foliage: neighbours are on one of two planes, or on none but their own.
+Layer leafy_layer(const Camera& camera) {
+    Layer layer = indexed_layer(camera, 0.02F);
+    std::uint32_t state = 1;
+    for (float& depth : layer.cpu().depth.pixels()) {
+        state = state * 1664525U + 1013904223U;
+        const std::uint32_t kind = state >> 30U;
+        if (kind == 1) depth = 0.05F;
+        if (kind > 1) depth = 0.03F + 1e-10F * static_cast<float>(state >> 8U);
+    }
+    return layer;
+}
+
+// Whether a surface is drawn with others of its tile or alone, its cells begin and end at the same place: pixels in a
+// strip of a thousandth of a pixel between the two were drawn by neither, and were holes in the middle of a tree.
+TEST(SurfaceMethod, PlacesJustBeforeThePixelsCentresAreInOneCell) {
+    const Camera source = street_camera({64, 64});
+    const Layer layer = leafy_layer(source);
+    const double tan_per_px = (source.fov.right - source.fov.left) / source.size_px.x;
+    for (const double before_px : {2e-4, 5e-4, 8e-4, 1.5e-3}) {
+        for (const glm::dvec2& shift_px : {glm::dvec2{-before_px, 0.3}, glm::dvec2{0.3, -before_px}}) {
+            Camera target = source;
+            target.fov.left += shift_px.x * tan_per_px;
+            target.fov.right += shift_px.x * tan_per_px;
+            target.fov.up -= shift_px.y * tan_per_px;
+            target.fov.down -= shift_px.y * tan_per_px;
+            const DisplayFrame frame = warp_once("surface", layer, {target, {}});
+            EXPECT_EQ(std::ranges::count(frame.coverage.pixels(), Coverage::hole), 0)
+                << shift_px.x << ", " << shift_px.y;
+            EXPECT_TRUE(frame.partly_covered.empty()) << shift_px.x << ", " << shift_px.y;
+        }
+    }
+}
+
 struct Quality {
     double psnr_db = 0.0;
     double flip = 0.0;

@@ -406,7 +406,8 @@ private:
     // The column or row of the cell at `place`, the tile's first or last where it is beyond.
     [[nodiscard]] static HWY_INLINE hn::VFromD<DI> cell_of(VF place) {
         const VF last = hn::Set(DF{}, static_cast<float>(kTileSize - 1));
-        return hn::ConvertTo(DI{}, hn::Min(hn::Max(place, hn::Zero(DF{})), last));
+        const VF from_begin = hn::Add(place, hn::Set(DF{}, kCellsBegin_px));
+        return hn::ConvertTo(DI{}, hn::Min(hn::Max(from_begin, hn::Zero(DF{})), last));
     }
 
     const PatchInput& input_;

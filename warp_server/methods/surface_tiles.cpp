@@ -171,10 +171,10 @@ void TileBuilder::write(const TilePlane& plane) {
     SurfaceTiles& tiles = out_->tiles;
     PatchList& list = tiles.surfaces;
     writer_.add(list, x_, y_, {kTileSize, kTileSize}, plane.plane, kAllCorners);
-    // Inside of the tile cells meet without overlap, because one place is in one cell.
+    // Inside of the tile cells meet without overlap, because one place is in one cell: bounds only hold all of them.
     const glm::ivec2 size_px = links_->size_px();
     const auto overlap = [&](int first, int end, PatchOverlap part) {
-        return first == 0 || end == kTileSize ? part : PatchOverlap{};
+        return first == 0 || end == kTileSize ? part : kEdgeOverlap;
     };
     const auto bounds = [&](PatchOverlap part) {
         return std::pair{

@@ -30,4 +30,9 @@ inline constexpr PatchOverlap kPatchOverlap{0.02F, 0.02F};
 /// only have pixels exactly on the borders of cells along the other: those belong to the later cell alone.
 inline constexpr PatchOverlap kEdgeOverlap{1.1e-3F, -1e-3F};
 
+/// Of surfaces drawn a tile at a time a cell begins so far before its first pixel: in the middle of where edge cells
+/// drawn by themselves overlap. With whole numbers, surfaces of one cell in a strip between the two were drawn by
+/// neither where others came by the other way: single holes in foliage.
+inline constexpr float kCellsBegin_px = 1.05e-3F;
+
 }  // namespace lw

@@ -12,7 +12,7 @@ class DemoFill final : public Fill {
 public:
     DemoFill(std::unique_ptr<Fill> fill, const DemoControls& controls) : fill_{std::move(fill)}, controls_{controls} {}
     [[nodiscard]] std::string_view name() const override { return fill_->name(); }
-    void work_on(BandPool* threads) override { fill_->work_on(threads); }
+    void work_on(TaskPool* threads) override { fill_->work_on(threads); }
     void apply(DisplayFrame& frame, const FillGuide& guide) override {
         if (!controls_.holes_shown.load(std::memory_order_relaxed)) return fill_->apply(frame, guide);
         const auto coverage = frame.coverage.pixels();
@@ -45,9 +45,9 @@ void SwitchingMethod::warp(const Layer& layer, const WarpTarget& target, Display
     counters_ = method.counters();
 }
 
-BandPool* SwitchingMethod::threads() {
+TaskPool* SwitchingMethod::threads() {
     for (const auto& method : methods_) {
-        if (BandPool* threads = method->threads()) return threads;
+        if (TaskPool* threads = method->threads()) return threads;
     }
     return nullptr;
 }

@@ -40,7 +40,7 @@ public:
     }
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override;
     /// Of whichever method has some: they are idle between warps.
-    [[nodiscard]] BandPool* threads() override;
+    [[nodiscard]] TaskPool* threads() override;
 
     [[nodiscard]] std::vector<std::string> labels() const;
 

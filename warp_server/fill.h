@@ -24,7 +24,7 @@ public:
 
     /// From now on apply() may use these threads too; null: the caller's alone. The pool outlives this, and is idle
     /// while apply() runs. The picture is the same on any number of them.
-    virtual void work_on(BandPool* /*threads*/) {}
+    virtual void work_on(TaskPool* /*threads*/) {}
 };
 
 /// Shown where nothing at all is known.

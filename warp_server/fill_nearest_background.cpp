@@ -1,10 +1,8 @@
 #include "warp_server/fill_nearest_background.h"
 
 #include <algorithm>
-#include <functional>
 #include <vector>
 
-#include "warp_server/band_pool.h"
 #include "warp_server/hole_ends.h"
 
 namespace lw {
@@ -17,22 +15,23 @@ public:
     void apply(DisplayFrame& frame, const FillGuide& /*guide*/) override {
         ends_.find(frame, threads_);
         frame_ = &frame;
-        if (threads_ == nullptr || ends_.hole_count() < HoleEnds::kWorthThreads) return fill_share(0, 1);
-        threads_->run(fill_share_);
+        const bool alone = threads_ == nullptr || ends_.hole_count() < HoleEnds::kWorthThreads;
+        if (alone) return fill(ends_.runs(), scratch_[0]);
+        shares_ = kSharesPerThread * threads_->threads();
+        threads_->run(shares_, fill_share_);
     }
 
-    void work_on(BandPool* threads) override {
+    void work_on(TaskPool* threads) override {
         threads_ = threads;
         scratch_.resize(threads == nullptr ? 1 : static_cast<std::size_t>(threads->threads()));
     }
 
 private:
     static constexpr std::size_t kAhead = 16;
+    static constexpr int kSharesPerThread = 4;
 
     // What is copied was reached, and what is written was not: shares do not meet.
-    void fill_share(int index, int count) {
-        const std::span<const HoleRun> runs = ends_.share(index, count);
-        HoleScratch& scratch = scratch_[static_cast<std::size_t>(index)];
+    void fill(std::span<const HoleRun> runs, HoleScratch& scratch) {
         for (std::size_t i = 0; i < runs.size(); ++i) {
             const HoleRun& run = runs[i];
             prefetch(*frame_, runs[std::min(i + kAhead, runs.size() - 1)]);
@@ -72,10 +71,13 @@ private:
 
     HoleEnds ends_;
     DisplayFrame* frame_ = nullptr;
-    BandPool* threads_ = nullptr;
-    std::vector<HoleScratch> scratch_{1};  // one for each thread
+    TaskPool* threads_ = nullptr;
+    std::vector<HoleScratch> scratch_{1};  // by worker
+    int shares_ = 1;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> fill_share_ = [this](int thread) { fill_share(thread, threads_->threads()); };
+    TaskPool::Work fill_share_ = [this](int share, int worker) {
+        fill(ends_.share(share, shares_), scratch_[static_cast<std::size_t>(worker)]);
+    };
 };
 
 }  // namespace

@@ -4,8 +4,6 @@
 #include <cstring>
 #include <limits>
 
-#include "warp_server/band_pool.h"
-
 namespace lw {
 namespace {
 
@@ -35,7 +33,7 @@ void spread_sideways(std::span<std::int32_t> chosen) {
 
 }  // namespace
 
-void HoleEnds::find(const DisplayFrame& frame, BandPool* threads) {
+void HoleEnds::find(const DisplayFrame& frame, TaskPool* threads) {
     width_ = frame.coverage.width();
     collect_runs(frame);
     for (ColumnEnds* ends : {&above_, &below_}) {
@@ -45,9 +43,9 @@ void HoleEnds::find(const DisplayFrame& frame, BandPool* threads) {
         ends->depths.resize(static_cast<std::size_t>(width_));
     }
     frame_ = &frame;
-    if (threads == nullptr || hole_count_ < kWorthThreads) return find_ends(frame, 0, 1);
-    threads_ = threads->threads();
-    threads->run(find_ends_);
+    if (threads != nullptr && hole_count_ >= kWorthThreads) return threads->run(2, find_ends_);
+    find_ends_above(frame);
+    find_ends_below(frame);
 }
 
 void HoleEnds::collect_runs(const DisplayFrame& frame) {
@@ -65,14 +63,13 @@ void HoleEnds::collect_runs(const DisplayFrame& frame) {
     }
 }
 
-// Along columns one pixel follows from the one beside it, so each side is one thread's: two can share the work.
-void HoleEnds::find_ends(const DisplayFrame& frame, int thread, int threads) {
-    if (thread == 0) {
-        for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) follow(frame, *run, run->y + 1, below_);
-    }
-    if (thread == 1 || threads == 1) {
-        for (const HoleRun& run : runs_) follow(frame, run, run.y - 1, above_);
-    }
+// Along columns one pixel follows from the one beside it, so each side is one thread's.
+void HoleEnds::find_ends_above(const DisplayFrame& frame) {
+    for (const HoleRun& run : runs_) follow(frame, run, run.y - 1, above_);
+}
+
+void HoleEnds::find_ends_below(const DisplayFrame& frame) {
+    for (auto run = runs_.rbegin(); run != runs_.rend(); ++run) follow(frame, *run, run->y + 1, below_);
 }
 
 // While a scan goes along columns, `rows` and `depths` hold the last reached pixel of each one, where the last row that

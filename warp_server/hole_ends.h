@@ -3,10 +3,10 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
+#include "core/task_pool.h"
 #include "warp_server/fill_kernels.h"
 #include "warp_server/warp_method.h"
 
@@ -46,7 +46,7 @@ public:
 
     /// Finds the runs, top row first, and what lies above and below each hole pixel.
     /// @param threads  null: the caller's alone
-    void find(const DisplayFrame& frame, BandPool* threads = nullptr);
+    void find(const DisplayFrame& frame, TaskPool* threads = nullptr);
 
     [[nodiscard]] std::span<const HoleRun> runs() const { return runs_; }
     [[nodiscard]] std::size_t hole_count() const { return hole_count_; }
@@ -69,7 +69,8 @@ private:
     };
 
     void collect_runs(const DisplayFrame& frame);
-    void find_ends(const DisplayFrame& frame, int thread, int threads);
+    void find_ends_above(const DisplayFrame& frame);
+    void find_ends_below(const DisplayFrame& frame);
     static void follow(const DisplayFrame& frame, const HoleRun& run, int beside, ColumnEnds& ends);
 
     int width_ = 0;
@@ -78,9 +79,10 @@ private:
     ColumnEnds above_;
     ColumnEnds below_;
     const DisplayFrame* frame_ = nullptr;
-    int threads_ = 1;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> find_ends_ = [this](int thread) { find_ends(*frame_, thread, threads_); };
+    TaskPool::Work find_ends_ = [this](int task, int /*worker*/) {
+        task == 0 ? find_ends_above(*frame_) : find_ends_below(*frame_);
+    };
 };
 
 }  // namespace lw

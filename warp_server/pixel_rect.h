@@ -14,4 +14,9 @@ struct PixelRect {
     [[nodiscard]] glm::ivec2 size_px() const { return end_px - first_px; }
 };
 
+/// What two parts share; empty when nothing.
+[[nodiscard]] inline PixelRect common(const PixelRect& a, const PixelRect& b) {
+    return {glm::max(a.first_px, b.first_px), glm::min(a.end_px, b.end_px)};
+}
+
 }  // namespace lw

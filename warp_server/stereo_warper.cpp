@@ -1,6 +1,5 @@
 #include "warp_server/stereo_warper.h"
 
-#include "warp_server/band_pool.h"
 #include "warp_server/methods/scanline.h"
 
 namespace lw {
@@ -19,7 +18,7 @@ Result<FrameWarper> scanline_warper(std::string_view fill, const Camera& display
 
 StereoWarper::StereoWarper(FrameWarper left, FrameWarper right, const StereoSettings& settings)
     : settings_{settings}, layout_{settings.layout}, warpers_{std::move(left), std::move(right)} {
-    if (settings.parallel) pool_ = std::make_unique<BandPool>(2);
+    if (settings.parallel) pool_ = std::make_unique<TaskPool>(2);
 }
 
 StereoWarper::~StereoWarper() = default;
@@ -94,11 +93,11 @@ void StereoWarper::step_band(int band) {
 }
 
 // On the pool's threads, which are two, or one after the other.
-void StereoWarper::run(int count, const std::function<void(int)>& work) {
+void StereoWarper::run(int tasks, const TaskPool::Work& work) {
     if (pool_) {
-        pool_->run(work);
+        pool_->run(tasks, work);
     } else {
-        for (int i = 0; i < count; ++i) work(i);
+        for (int task = 0; task < tasks; ++task) work(task, 0);
     }
 }
 

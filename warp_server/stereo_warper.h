@@ -3,19 +3,17 @@
 
 #include <array>
 #include <atomic>
-#include <functional>
 #include <memory>
 #include <string_view>
 
 #include "core/result.h"
 #include "core/stereo_rig.h"
+#include "core/task_pool.h"
 #include "frame_link/drawn_view.h"
 #include "warp_server/eye_layout.h"
 #include "warp_server/frame_warper.h"
 
 namespace lw {
-
-class BandPool;
 
 struct StereoSettings {
     StereoRig rig;
@@ -67,13 +65,13 @@ private:
     void warp_eye(Eye eye);
     void warp_in_turns();
     void step_band(int band);
-    void run(int count, const std::function<void(int)>& work);
+    void run(int tasks, const TaskPool::Work& work);
     [[nodiscard]] WarpTarget target_of(Eye eye) const;
 
     StereoSettings settings_;
     std::atomic<EyeLayout> layout_;
     std::array<FrameWarper, 2> warpers_;
-    std::unique_ptr<BandPool> pool_;  ///< null: one eye after the other
+    std::unique_ptr<TaskPool> pool_;  ///< null: one eye after the other
     DisplayFrame packed_;
     WarpCounters counters_;
     HeldInput held_;
@@ -81,9 +79,9 @@ private:
     // Of the warp under way, for the threads of the pool.
     const RenderedFrame* frame_ = nullptr;
     const WarpTarget* head_ = nullptr;
-    std::function<void(int)> warp_eye_ = [this](int index) { warp_eye(static_cast<Eye>(index)); };
-    std::function<void(int)> step_band_ = [this](int band) { step_band(band); };
-    std::function<void(int)> finish_eye_ = [this](int index) {
+    TaskPool::Work warp_eye_ = [this](int index, int /*worker*/) { warp_eye(static_cast<Eye>(index)); };
+    TaskPool::Work step_band_ = [this](int band, int /*worker*/) { step_band(band); };
+    TaskPool::Work finish_eye_ = [this](int index, int /*worker*/) {
         warpers_[static_cast<std::size_t>(index)].finish_steps();
     };
 };

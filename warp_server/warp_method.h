@@ -17,7 +17,7 @@
 
 namespace lw {
 
-class BandPool;
+class TaskPool;
 
 /// What became of a target pixel.
 enum class Coverage : std::uint8_t {
@@ -118,7 +118,7 @@ public:
     virtual void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) = 0;
 
     /// The threads it works on, lent to what comes after it in the same display frame; null: the caller's alone.
-    [[nodiscard]] virtual BandPool* threads() { return nullptr; }
+    [[nodiscard]] virtual TaskPool* threads() { return nullptr; }
 
     /// Whether it shows frames as they were drawn instead of where things are now.
     [[nodiscard]] virtual bool shows_frames_as_drawn() const { return false; }

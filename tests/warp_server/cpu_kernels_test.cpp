@@ -10,7 +10,6 @@
 #include "tests/warp_server/analytic_scene.h"
 #include "tests/warp_server/image_assertions.h"
 #include "tests/warp_server/synthetic_layers.h"
-#include "warp_server/band_pool.h"
 #include "warp_server/fill.h"
 #include "warp_server/methods/linear_colour.h"
 #include "warp_server/methods/row_range.h"
@@ -102,19 +101,7 @@ TEST_P(VectorMethod, AnyNumberOfThreadsGivesTheSameBytes) {
     }
 }
 
-TEST(BandPool, RunsEveryBandOnceAndAgain) {
-    for (const int threads : {1, 2, 5}) {
-        BandPool pool{threads};
-        std::vector<std::atomic<int>> runs(static_cast<std::size_t>(threads));
-        const std::function<void(int)> work = [&](int i) { ++runs[static_cast<std::size_t>(i)]; };
-        for (int repeat = 1; repeat <= 200; ++repeat) {
-            pool.run(work);
-            for (const std::atomic<int>& count : runs) ASSERT_EQ(count.load(), repeat);
-        }
-    }
-}
-
-TEST(BandPool, BandsMeetAndCoverAllRows) {
+TEST(RowBands, BandsMeetAndCoverAllRows) {
     for (const int rows : {0, 1, 7, 1024}) {
         int next = 0;
         for (int i = 0; i < 3; ++i) {
@@ -126,7 +113,7 @@ TEST(BandPool, BandsMeetAndCoverAllRows) {
     }
 }
 
-TEST(BandPool, BandsOfCostMeetAndShareTheCost) {
+TEST(RowBands, BandsOfCostMeetAndShareTheCost) {
     const std::vector<float> cost_until{0.0F, 0.0F, 0.0F, 0.0F, 1.0F, 2.0F, 3.0F, 4.0F};  // all of it in rows 3 to 6
     EXPECT_EQ(band_of_cost(cost_until, 0, 2).begin, 0);
     EXPECT_EQ(band_of_cost(cost_until, 0, 2).end, 5);

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "warp_server/band_pool.h"
+#include "core/task_pool.h"
 #include "warp_server/fill.h"
 #include "warp_server/hole_ends.h"
 
@@ -160,7 +160,7 @@ TEST(NearestBackgroundFill, AnyNumberOfThreadsGivesTheSamePicture) {
     DisplayFrame alone = frame_with_many_holes();
     fill_holes("nearest-background", alone);
     for (const int threads : {1, 2, 3}) {
-        BandPool pool{threads};
+        TaskPool pool{threads};
         auto fill = make_fill("nearest-background");
         (*fill)->work_on(&pool);
         for (int repeat = 0; repeat < 2; ++repeat) {

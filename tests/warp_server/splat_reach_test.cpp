@@ -6,7 +6,7 @@
 
 #include "tests/warp_server/analytic_scene.h"
 #include "warp_server/methods/splat_footprint.h"
-#include "warp_server/methods/splat_panels.h"
+#include "warp_server/methods/splat_parts.h"
 #include "warp_server/methods/splat_reach.h"
 #include "warp_server/methods/splat_tiles.h"
 
@@ -76,7 +76,7 @@ struct Built {
     std::shared_ptr<const SplatTiles> tiles;
     ObjectMatrices matrices;
     SplatReach reach;
-    SplatPanel panel;  // the whole width
+    SplatPart part;  // the whole target
 };
 
 Built reach_of(const Layer& layer, const WarpTarget& target) {
@@ -84,7 +84,7 @@ Built reach_of(const Layer& layer, const WarpTarget& target) {
     built.tiles = tiles_of(layer.cpu());
     built.matrices.build(layer, target);
     built.reach.build(*built.tiles, built.matrices, target.camera.size_px);
-    built.panel.build(built.reach, {0, target.camera.size_px.x});
+    built.part.build(built.reach, {{0, 0}, target.camera.size_px});
     return built;
 }
 
@@ -95,7 +95,7 @@ void expect_all_points_within(const Layer& layer, const WarpTarget& target) {
     const CpuPixels& pixels = layer.cpu();
     const glm::ivec2 size_px = target.camera.size_px;
     for (int y = 0; y < pixels.depth.height(); ++y) {
-        const RowRange rows = built.panel.rows_of_band(y / kBandHeight_px);
+        const RowRange rows = built.part.rows_of_band(y / kBandHeight_px);
         for (int x = 0; x < pixels.depth.width(); ++x) {
             const ObjectId id = pixels.object_id.at(x, y);
             if (id == 0 && pixels.depth.at(x, y) == 0.0F) continue;
@@ -109,7 +109,7 @@ void expect_all_points_within(const Layer& layer, const WarpTarget& target) {
             if (at.y + extent < 0.0 || at.y - extent > size_px.y) continue;
             ASSERT_LE(rows.begin, std::max(0.0, at.y - extent)) << x << ", " << y;
             ASSERT_GE(rows.end, std::min<double>(size_px.y, at.y + extent)) << x << ", " << y;
-            ASSERT_EQ(built.panel.outside(y / kBandHeight_px)[static_cast<std::size_t>(x / kTileWidth_px)], 0);
+            ASSERT_EQ(built.part.outside(y / kBandHeight_px)[static_cast<std::size_t>(x / kTileWidth_px)], 0);
             const PixelRect& rect = built.reach.rect_of(y / kBandHeight_px, x / kTileWidth_px);
             ASSERT_LE(rect.first_px.x, std::max(0.0, at.x - extent)) << x << ", " << y;
             ASSERT_GE(rect.end_px.x, std::min<double>(size_px.x, at.x + extent)) << x << ", " << y;
@@ -130,23 +130,47 @@ TEST(SplatReach, HoldsEveryPointAtAnyPose) {
     }
 }
 
-TEST(SplatPanels, OneWhileTheHeadIsStillAndMoreWhereRowsBend) {
+std::vector<PixelRect> parts_of(const Layer& layer, const WarpTarget& target, int threads) {
+    const Built built = reach_of(layer, target);
+    SplatParts parts;
+    parts.build(built.reach, *built.tiles, threads);
+    return {parts.all().begin(), parts.all().end()};
+}
+
+TEST(SplatParts, OneThreadHasOneWhileTheHeadIsStillAndPanelsWhereRowsBend) {
     const AnalyticScene scene = AnalyticScene::street();
     const Camera source = street_camera({1024, 1024});
     const Layer layer = scene.draw(source, 0.0);
-    SplatPanels panels;
-    panels.build(reach_of(layer, {source, scene.movers(0.0)}).reach);
-    ASSERT_EQ(panels.all().size(), 1U);
-    const int rows_in_all = reach_of(layer, {moved(source, {}, 30.0), {}}).panel.rows_in_flight();
-    panels.build(reach_of(layer, {moved(source, {}, 30.0), scene.movers(0.0)}).reach);
-    ASSERT_GT(panels.all().size(), 1U);
-    int next = 0;
-    for (const SplatPanel& panel : panels.all()) {
-        EXPECT_EQ(panel.columns().begin, next);
-        EXPECT_LT(panel.rows_in_flight(), rows_in_all);
-        next = panel.columns().end;
+    ASSERT_EQ(parts_of(layer, {source, scene.movers(0.0)}, 1).size(), 1U);
+
+    const WarpTarget turned{moved(source, {}, 30.0), scene.movers(0.0)};
+    const std::vector<PixelRect> panels = parts_of(layer, turned, 1);
+    ASSERT_GT(panels.size(), 1U);
+    const Built whole = reach_of(layer, turned);
+    for (const PixelRect& rect : panels) {
+        SplatPart part;
+        part.build(whole.reach, rect);
+        EXPECT_EQ(rect.size_px().y, 1024);
+        EXPECT_LT(part.rows_in_flight(), whole.part.rows_in_flight());
     }
-    EXPECT_EQ(next, 1024);
+}
+
+TEST(SplatParts, CoverEveryPixelOnce) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({600, 121});
+    const Layer layer = scene.draw(source, 0.0);
+    for (const double roll_deg : {0.0, 90.0, 180.0}) {
+        for (const int threads : {1, 2, 3, 16}) {
+            SCOPED_TRACE(::testing::Message() << roll_deg << " degrees, " << threads << " threads");
+            Image<int> parts{{600, 121}};
+            for (const PixelRect& rect : parts_of(layer, {moved(source, {}, 5.0, 0.0, roll_deg), {}}, threads)) {
+                for (int y = rect.first_px.y; y < rect.end_px.y; ++y) {
+                    for (int x = rect.first_px.x; x < rect.end_px.x; ++x) ++parts.at(x, y);
+                }
+            }
+            EXPECT_TRUE(std::ranges::all_of(parts.pixels(), [](int count) { return count == 1; }));
+        }
+    }
 }
 
 TEST(SplatReach, FewRowsAreInFlightWhileTheHeadIsStill) {
@@ -154,7 +178,7 @@ TEST(SplatReach, FewRowsAreInFlightWhileTheHeadIsStill) {
     const Camera source = street_camera({512, 512});
     const Layer layer = scene.draw(source, 0.0);
     // A band of 16 rows with the margins of 3 px for extents and rounding above and below, and the row that they cut.
-    EXPECT_LE(reach_of(layer, {source, scene.movers(0.0)}).panel.rows_in_flight(), 16 + 2 * 4);
+    EXPECT_LE(reach_of(layer, {source, scene.movers(0.0)}).part.rows_in_flight(), 16 + 2 * 4);
 }
 
 TEST(SplatReach, LeavesOutWhatTheHeadTurnedAwayFrom) {
@@ -167,24 +191,6 @@ TEST(SplatReach, LeavesOutWhatTheHeadTurnedAwayFrom) {
     const int turned = reach_of(layer, {moved(source, {}, 40.0), {}}).reach.tiles_outside();
     EXPECT_GE(turned, all / 4);  // what lay more than 5 degrees off to one side is gone: one column of tiles and more
     EXPECT_LT(turned, all);
-}
-
-TEST(SplatReach, SharesMeetAndCoverAllRows) {
-    const AnalyticScene scene = AnalyticScene::street();
-    const Camera source = street_camera({160, 121});
-    const Layer layer = scene.draw(source, 0.0);
-    for (const double roll_deg : {0.0, 90.0, 180.0}) {
-        const Built built = reach_of(layer, {moved(source, {}, 5.0, 0.0, roll_deg), scene.movers(0.1)});
-        for (const int count : {1, 2, 3, 16}) {
-            int next = 0;
-            for (int i = 0; i < count; ++i) {
-                const RowRange rows = built.panel.share(*built.tiles, i, count);
-                EXPECT_EQ(rows.begin, next) << i << " of " << count;
-                next = rows.end;
-            }
-            EXPECT_EQ(next, 121);
-        }
-    }
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "warp_server/band_pool.h"
+#include "core/task_pool.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/id_counts.h"
@@ -13,6 +13,9 @@
 
 namespace lw {
 namespace {
+
+// Bands of a picture differ in cost, and threads start at different times.
+constexpr int kBandsPerThread = 4;
 
 struct PreparedInverse final : PreparedLayer {
     LinearImage linear;
@@ -25,7 +28,7 @@ public:
         : label_{std::move(label)}, pool_{threads}, steps_{steps} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
-    [[nodiscard]] BandPool* threads() override { return &pool_; }
+    [[nodiscard]] TaskPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         const CpuPixels& pixels = checked_cpu_pixels(layer);
@@ -44,19 +47,21 @@ public:
         input_ = {&checked_cpu_pixels(layer), &prepared.linear, &matrices_,
                   background_source_from_target(layer.camera, target.camera), steps_};
         out_ = &out;
-        pool_.run(search_band_);
+        bands_ = kBandsPerThread * pool_.threads();
+        pool_.run(bands_, search_band_);
     }
 
 private:
     std::string label_;
-    BandPool pool_;
+    TaskPool pool_;
     int steps_;
     ObjectMatrices matrices_;
     InverseInput input_;
     DisplayFrame* out_ = nullptr;
+    int bands_ = 1;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> search_band_ = [this](int thread) {
-        search_rows(input_, band_of_rows(out_->depth.height(), thread, pool_.threads()), *out_);
+    TaskPool::Work search_band_ = [this](int band, int /*worker*/) {
+        search_rows(input_, band_of_rows(out_->depth.height(), band, bands_), *out_);
     };
 };
 

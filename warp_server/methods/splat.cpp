@@ -2,12 +2,12 @@
 
 #include <algorithm>
 
-#include "warp_server/band_pool.h"
+#include "core/task_pool.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/splat_kernels.h"
-#include "warp_server/methods/splat_panels.h"
+#include "warp_server/methods/splat_parts.h"
 #include "warp_server/methods/splat_reach.h"
 #include "warp_server/methods/splat_resolve.h"
 #include "warp_server/methods/splat_tiles.h"
@@ -15,17 +15,17 @@
 namespace lw {
 namespace {
 
-// In each panel of the target, bands of the source are worked on in order, and a target row is finished as soon as no
+// In each part of the target, bands of the source are worked on in order, and a target row is finished as soon as no
 // later band can reach it.
-// Threads share the target by rows, each with keys of its own: a band that lands in two shares is placed twice, nothing
-// is merged, and the larger key wins whoever wrote it, so the picture does not depend on the number of threads.
+// Threads share the parts, each with keys of its own: a tile that lands in two parts is placed twice, nothing is
+// merged, and the larger key wins whoever wrote it, so the picture does not depend on the parts.
 class SplatMethod final : public WarpMethod {
 public:
     SplatMethod(std::string label, int threads)
-        : label_{std::move(label)}, pool_{threads}, keys_(static_cast<std::size_t>(threads)) {}
+        : label_{std::move(label)}, pool_{threads}, painters_(static_cast<std::size_t>(threads)) {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
-    [[nodiscard]] BandPool* threads() override { return &pool_; }
+    [[nodiscard]] TaskPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         return tiles_of(checked_cpu_pixels(layer));
@@ -37,34 +37,37 @@ public:
         const auto& tiles = prepared_or_made<SplatTiles>(layer, own);
         matrices_.build(layer, target);
         reach_.build(tiles, matrices_, target.camera.size_px);
-        panels_.build(reach_);
+        parts_.build(reach_, tiles, pool_.threads());
         out.resize(target.camera.size_px);
         input_ = {&pixels, &tiles, &matrices_};
         background_ = {background_source_from_target(layer.camera, target.camera)};
         out_ = &out;
-        pool_.run(work_);
+        pool_.run(static_cast<int>(parts_.all().size()), draw_part_);
         count_bad_pixels(tiles);
     }
 
 private:
-    void draw_share(int thread) {
-        for (const SplatPanel& panel : panels_.all()) draw_share(panel, thread);
-    }
+    // What one thread draws with.
+    struct Painter {
+        SplatPart part;
+        KeyRing keys;
+    };
 
-    void draw_share(const SplatPanel& panel, int thread) {
-        const RowRange share = panel.share(*input_.tiles, thread, pool_.threads());
-        KeyRing& keys = keys_[static_cast<std::size_t>(thread)];
-        keys.reshape(panel.columns(), std::min(panel.rows_in_flight(), out_->colour.height()));
-        int finished = share.begin;  // rows before are done
-        int reached = share.begin;   // rows from here on were not written yet
-        finish_rows(finished, reached, std::min(panel.first_row_from_band(0), share.end), keys);
+    void draw_part(const PixelRect& rect, Painter& painter) {
+        SplatPart& part = painter.part;
+        KeyRing& keys = painter.keys;
+        part.build(reach_, rect);
+        keys.reshape({rect.first_px.x, rect.end_px.x}, part.rows_in_flight());
+        int finished = rect.first_px.y;  // rows before are done
+        int reached = finished;          // rows from here on were not written yet
+        finish_rows(finished, reached, part.first_row_from_band(0), keys);
         for (int band = 0; band < input_.tiles->bands(); ++band) {
-            const RowRange rows = panel.rows_of_band(band);
-            if (rows.begin < share.end && rows.end > finished && rows.begin < rows.end) {
-                splat_band(input_, band, panel.outside(band), {finished, share.end}, keys);
-                reached = std::clamp(rows.end, reached, share.end);
+            const RowRange rows = part.rows_of_band(band);
+            if (rows.begin < rows.end) {
+                splat_band(input_, band, part.outside(band), {finished, rect.end_px.y}, keys);
+                reached = std::max(rows.end, reached);
             }
-            finish_rows(finished, reached, std::min(panel.first_row_from_band(band + 1), share.end), keys);
+            finish_rows(finished, reached, part.first_row_from_band(band + 1), keys);
         }
     }
 
@@ -91,16 +94,18 @@ private:
     }
 
     std::string label_;
-    BandPool pool_;
-    std::vector<KeyRing> keys_;  // one for each thread
+    TaskPool pool_;
+    std::vector<Painter> painters_;  // by worker
     ObjectMatrices matrices_;
     SplatReach reach_;
-    SplatPanels panels_;
+    SplatParts parts_;
     SplatInput input_;
     BackgroundLookup background_;
     DisplayFrame* out_ = nullptr;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> work_ = [this](int thread) { draw_share(thread); };
+    TaskPool::Work draw_part_ = [this](int part, int worker) {
+        draw_part(parts_.all()[static_cast<std::size_t>(part)], painters_[static_cast<std::size_t>(worker)]);
+    };
 };
 
 }  // namespace

@@ -68,10 +68,10 @@ private:
 
     void add_band(int begin_y, int end_y) {
         tiles_->first_patch.push_back(static_cast<int>(tiles_->patches.size()));
-        tiles_->points.push_back(0);
         const int blocks_per_tile = kTileWidth_px / kBlockWidth_px;
         for (int tile = 0; tile < tiles_->tiles_per_band(); ++tile) {
             first_of_tile_ = tiles_->patches.size();
+            tiles_->points.push_back(0);
             const int end_block = std::min((tile + 1) * blocks_per_tile, tiles_->blocks_per_row);
             for (int y = begin_y; y < end_y; ++y) {
                 for (int block = tile * blocks_per_tile; block < end_block; ++block) add_block(tile, block, y);

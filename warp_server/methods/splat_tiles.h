@@ -46,7 +46,7 @@ struct SplatTiles final : PreparedLayer {
     std::vector<ObjectId> objects;               ///< of uniform blocks; else the object of the block's first pixel
     std::vector<TilePatch> patches;              ///< by band
     std::vector<int> first_patch;                ///< of every band, and one more entry for the end
-    std::vector<int> points;                     ///< of every band: pixels that are not background
+    std::vector<int> points;                     ///< by band and tile: pixels that are not background
     std::vector<ObjectPixels> pixels_of_object;  ///< by id, up to the largest id there is
 
     /// What the blocks of the pixels [begin_x, end_x) of row y hold. 0 <= begin_x < end_x <= width.
@@ -58,7 +58,10 @@ struct SplatTiles final : PreparedLayer {
         }
         return all;
     }
-    [[nodiscard]] int bands() const { return static_cast<int>(points.size()); }
+    [[nodiscard]] int points_of(int band, int tile) const {
+        return points[static_cast<std::size_t>(band * tiles_per_band() + tile)];
+    }
+    [[nodiscard]] int bands() const { return (size_px.y + kBandHeight_px - 1) / kBandHeight_px; }
     [[nodiscard]] int tiles_per_band() const { return (size_px.x + kTileWidth_px - 1) / kTileWidth_px; }
 };
 

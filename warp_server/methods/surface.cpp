@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "warp_server/band_pool.h"
+#include "core/task_pool.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
@@ -24,11 +24,8 @@ struct PaintedLayer {
     float nearest_depth = 1.0F;
 };
 
-PixelRect common(const PixelRect& a, const PixelRect& b) {
-    return {glm::max(a.first_px, b.first_px), glm::min(a.end_px, b.end_px)};
-}
-
-// Draws one band of rows of the target; one per thread.
+// Draws one band of rows of the target. As many as threads: what crosses a border is drawn on both sides, and twice the
+// bands took a tenth more time.
 class BandPainter {
 public:
     // `layers` outlives the steps; at least one.
@@ -154,7 +151,7 @@ public:
     SurfaceMethod(std::string label, int threads) : label_{std::move(label)}, pool_{threads} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
-    [[nodiscard]] BandPool* threads() override { return &pool_; }
+    [[nodiscard]] TaskPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         return classify_surfaces(checked_cpu_pixels(layer));
@@ -170,7 +167,7 @@ public:
     void warp_stack(std::span<const StackedLayer> layers, const WarpTarget& target, StackBase base,
                     DisplayFrame& out) override {
         begin_stack(layers, target, base, pool_.threads(), out);
-        if (!to_paint_.empty()) pool_.run(paint_band_);
+        if (!to_paint_.empty()) pool_.run(static_cast<int>(bands_.size()), paint_band_);
         finish_stack();
     }
 
@@ -264,7 +261,7 @@ private:
     }
 
     std::string label_;
-    BandPool pool_;
+    TaskPool pool_;
     std::vector<BandPainter> painters_;  // by band
     std::vector<RowRange> bands_;
 
@@ -275,7 +272,7 @@ private:
     std::span<const PaintedLayer> to_paint_;
     DisplayFrame* out_ = nullptr;
     // Kept, because making a function object may allocate.
-    std::function<void(int)> paint_band_ = [this](int band) {
+    TaskPool::Work paint_band_ = [this](int band, int /*worker*/) {
         while (step(band)) {
         }
     };

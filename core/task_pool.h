@@ -1,0 +1,55 @@
+#pragma once
+/// A few threads that share the tasks of one stage of a frame, and wait for the next stage without sleeping in between.
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace lw {
+
+/// Calls one function for each of a few tasks, on several threads at once, over and over. Whoever is free takes the
+/// next task, and only those that somebody took are waited for: a thread that the machine wakes late, or takes its
+/// processor from, costs what it has begun and not a share of the whole. A stage lasts a millisecond, so threads spin
+/// for a moment after each, to be there for the next, and sleep between frames.
+/// One thread owns the pool and calls run(); it works too.
+class TaskPool {
+public:
+    /// `task` in [0, tasks); `worker` in [0, threads()), 0 for the caller: no two tasks run on one worker at a time, so
+    /// what needs memory of its own keeps one for each worker. Throws nothing.
+    using Work = std::function<void(int task, int worker)>;
+
+    /// @param threads  including the caller's, at least 1. The others inherit the scheduling of the constructing thread
+    explicit TaskPool(int threads);
+    ~TaskPool();
+    TaskPool(const TaskPool&) = delete;
+    TaskPool& operator=(const TaskPool&) = delete;
+
+    [[nodiscard]] int threads() const { return static_cast<int>(workers_.size()) + 1; }
+
+    /// Calls `work` once for every task, begun in ascending order (so the longest should come first), and returns when
+    /// all are done. What the caller wrote before is seen by all; what they wrote is seen by the caller afterwards.
+    /// One task is done by the caller without waking anybody. Allocates nothing. `tasks` >= 0.
+    void run(int tasks, const Work& work);
+
+private:
+    void serve(int worker);
+    void work_off(int worker);
+    [[nodiscard]] bool take(int& task);
+
+    std::vector<std::thread> workers_;
+    // Of the run under way. The first two change only while no task is left to be taken or done.
+    const Work* work_ = nullptr;
+    int tasks_ = 0;
+    std::atomic<int> untaken_{0};
+    std::atomic<int> undone_{0};
+    std::atomic<bool> stop_{false};
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::condition_variable done_;
+};
+
+}  // namespace lw

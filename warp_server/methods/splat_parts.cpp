@@ -1,0 +1,132 @@
+#include "warp_server/methods/splat_parts.h"
+
+#include <algorithm>
+
+namespace lw {
+namespace {
+
+// A second-level cache of 1 MB. Half of it was slower: narrower panels place more points twice.
+constexpr std::size_t kMostKeys = 128 * 1024;
+constexpr int kMostPanels = 4;
+constexpr int kLeastColumns = 4 * kTileWidth_px;
+
+// A target pixel costs something, too, where no point lands: about half of a point.
+constexpr float kCostOfPoint = 2.0F;
+constexpr float kCostOfPixel = 1.0F;
+
+RowRange joined(const RowRange& a, const RowRange& b) {
+    if (a.begin >= a.end) return b;
+    if (b.begin >= b.end) return a;
+    return {std::min(a.begin, b.begin), std::max(a.end, b.end)};
+}
+
+// Whole cache lines of every image: threads meet at rows alone.
+RowRange columns_of_panel(int width, int index, int count) {
+    const auto end_of = [&](int panel) {
+        return panel == count ? width : width * panel / count / kTileWidth_px * kTileWidth_px;
+    };
+    return {end_of(index), end_of(index + 1)};
+}
+
+// Every cut between rows has tiles on both sides, which are placed twice: a fortieth of the work of a still head. It
+// pays only where the cost of parts is hard to tell beforehand.
+int parts_for(int panels, int threads) {
+    if (threads == 1) return panels;
+    return panels == 1 ? threads : 2 * threads;
+}
+
+}  // namespace
+
+void SplatPart::build(const SplatReach& reach, const PixelRect& rect) {
+    rect_ = rect;
+    tiles_per_band_ = reach.tiles_per_band();
+    const int bands = reach.bands();
+    rows_.assign(static_cast<std::size_t>(bands), RowRange{});
+    outside_.assign(static_cast<std::size_t>(bands) * static_cast<std::size_t>(tiles_per_band_), 1);
+    for (int band = 0; band < bands; ++band) {
+        for (int tile = 0; tile < tiles_per_band_; ++tile) {
+            const PixelRect here = common(reach.rect_of(band, tile), rect);
+            if (here.empty()) continue;
+            outside_[static_cast<std::size_t>(band * tiles_per_band_ + tile)] = 0;
+            RowRange& rows = rows_[static_cast<std::size_t>(band)];
+            rows = joined(rows, {here.first_px.y, here.end_px.y});
+        }
+    }
+
+    first_row_.assign(static_cast<std::size_t>(bands) + 1, rect.end_px.y);
+    for (auto band = static_cast<std::size_t>(bands); band-- > 0;) {
+        const RowRange& rows = rows_[band];
+        first_row_[band] = rows.begin < rows.end ? std::min(rows.begin, first_row_[band + 1]) : first_row_[band + 1];
+    }
+    rows_in_flight_ = 1;
+    int end = rect.first_px.y;
+    for (std::size_t band = 0; band < rows_.size(); ++band) {
+        end = std::max(end, rows_[band].end);
+        rows_in_flight_ = std::max(rows_in_flight_, end - first_row_[band]);
+    }
+}
+
+void SplatParts::build(const SplatReach& reach, const SplatTiles& tiles, int threads) {
+    unordered_.clear();
+    costs_.clear();
+    const int panels = panels_for(reach);
+    const int parts = std::max(panels, parts_for(panels, threads));
+    for (int i = 0; i < panels; ++i) {
+        const RowRange columns = columns_of_panel(reach.target_size_px().x, i, panels);
+        add_panel(reach, tiles, columns, (parts + panels - 1) / panels);
+    }
+    std::ranges::sort(costs_, {}, [](const Cost& cost) { return -cost.work; });
+    rects_.clear();
+    for (const Cost& cost : costs_) rects_.push_back(unordered_[cost.rect]);
+}
+
+int SplatParts::panels_for(const SplatReach& reach) {
+    const glm::ivec2 size_px = reach.target_size_px();
+    const auto most_keys = [&](int count) {
+        int most = 0;
+        for (int i = 0; i < count; ++i) {
+            const RowRange columns = columns_of_panel(size_px.x, i, count);
+            whole_panel_.build(reach, {{columns.begin, 0}, {columns.end, size_px.y}});
+            most = std::max(most, (columns.end - columns.begin) * whole_panel_.rows_in_flight());
+        }
+        return static_cast<std::size_t>(most);
+    };
+    int count = 1;
+    while (count < kMostPanels && size_px.x >= 2 * count * kLeastColumns && most_keys(count) > kMostKeys) count *= 2;
+    return count;
+}
+
+// The points of a tile are spread over the rows that it can reach.
+void SplatParts::add_panel(const SplatReach& reach, const SplatTiles& tiles, RowRange columns, int count) {
+    const int height = reach.target_size_px().y;
+    const PixelRect panel{{columns.begin, 0}, {columns.end, height}};
+    std::vector<float>& cost = cost_until_;
+    cost.assign(static_cast<std::size_t>(height) + 1, 0.0F);  // first by how much rows cost more than the one before
+    for (int band = 0; band < reach.bands(); ++band) {
+        for (int tile = 0; tile < reach.tiles_per_band(); ++tile) {
+            const PixelRect here = common(reach.rect_of(band, tile), panel);
+            if (here.empty()) continue;
+            const float of_row =
+                kCostOfPoint * static_cast<float>(tiles.points_of(band, tile)) / static_cast<float>(here.size_px().y);
+            cost[static_cast<std::size_t>(here.first_px.y)] += of_row;
+            cost[static_cast<std::size_t>(here.end_px.y)] -= of_row;
+        }
+    }
+    float of_row = kCostOfPixel * static_cast<float>(columns.end - columns.begin);
+    float until = 0.0F;
+    for (float& entry : cost) {
+        of_row += entry;
+        entry = until;
+        until += of_row;
+    }
+
+    for (int i = 0; i < count; ++i) {
+        const RowRange rows = band_of_cost(cost, i, count);
+        if (rows.begin >= rows.end) continue;
+        costs_.push_back(
+            {cost[static_cast<std::size_t>(rows.end)] - cost[static_cast<std::size_t>(rows.begin)], unordered_.size()});
+        unordered_.push_back({{columns.begin, rows.begin}, {columns.end, rows.end}});
+    }
+}
+
+}  // namespace lw

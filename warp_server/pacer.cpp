@@ -1,7 +1,7 @@
 #include "warp_server/pacer.h"
 
 #include <algorithm>
-#include <cmath>
+#include <functional>
 
 namespace lw {
 
@@ -35,27 +35,28 @@ void Pacer::finished(const PacerOutcome& outcome) {
     ++work_count_;
     expected_work_ = std::max(work, last_work_);
     last_work_ = work;
-    ordinary_work_ = quantile_of(work_, 0.5);
-    fast_growth_ = std::max(quantile_of(growth_, kQuantile), Duration{});
+    const std::size_t known = std::min(work_count_, kWindow);
+    ordinary_work_ = largest_but(work_, known / 2);
+    const std::size_t left_out = std::max<std::size_t>(known * kLeftOut_percent / 100, 1);
+    fast_growth_ = std::max(largest_but(growth_, left_out), Duration{});
 
     const Duration period = outcome.refresh.period;
-    const bool missed = outcome.presented > outcome.refresh.scanout_begin;
+    const Duration longest_lead = period * settings_.longest_lead_periods;
+    const bool missed = outcome.presented > outcome.refresh.scanout_begin && work <= longest_lead;
     const Duration change = missed ? settings_.miss_step : -settings_.miss_step / kHitsPerMiss;
     const Duration smallest = smallest_margin(period);
-    margin_ =
-        std::clamp(margin(period) + change, smallest, std::max(smallest, period * settings_.longest_lead_periods));
+    margin_ = std::clamp(margin(period) + change, smallest, std::max(smallest, longest_lead));
 }
 
 Duration Pacer::smallest_margin(Duration period) const {
     return std::clamp(period / 8, settings_.smallest_margin, settings_.enough_margin);
 }
 
-Duration Pacer::quantile_of(const Window& window, double quantile) const {
+Duration Pacer::largest_but(const Window& window, std::size_t larger) const {
     Window sorted = window;
-    const std::size_t count = std::min(work_count_, kWindow);
-    const auto rank = static_cast<std::size_t>(std::ceil(quantile * static_cast<double>(count))) - 1;
-    const auto place = sorted.begin() + static_cast<std::ptrdiff_t>(rank);
-    std::nth_element(sorted.begin(), place, sorted.begin() + static_cast<std::ptrdiff_t>(count));
+    const auto end = sorted.begin() + static_cast<std::ptrdiff_t>(std::min(work_count_, kWindow));
+    const auto place = sorted.begin() + std::min(static_cast<std::ptrdiff_t>(larger), end - sorted.begin() - 1);
+    std::nth_element(sorted.begin(), place, end, std::greater<>{});
     return *place;
 }
 

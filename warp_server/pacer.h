@@ -26,8 +26,9 @@ struct PacerSettings {
     /// The lead is at most so many periods: 1 for whole pictures, since an earlier one would overtake the one before;
     /// strips may be made as many slots ahead as a refresh has.
     int longest_lead_periods = 1;
-    /// What a missed refresh adds to the margin.
-    Duration miss_step = from_ms(0.5);
+    /// What a missed refresh adds to the margin, where more lead would have helped: work longer than the longest lead
+    /// is nothing to be ready for.
+    Duration miss_step = from_ms(0.25);
 };
 
 /// What the server does next.
@@ -55,7 +56,8 @@ public:
     [[nodiscard]] PacerPlan next_wake(TimePoint now, const Refresh& next) const;
 
     /// Learns from a finished refresh. A late wake-up counts as work: on a machine that wakes threads late the lead has
-    /// to cover it. A miss widens the margin by `miss_step`; a hit takes 1/kHitsPerMiss of that back.
+    /// to cover it. A miss that more lead would have prevented widens the margin by `miss_step`; every other picture
+    /// takes 1/kHitsPerMiss of that back.
     void finished(const PacerOutcome& outcome);
 
     /// Time from waking to scan-out that next_wake() uses for a display of this period. At most
@@ -73,14 +75,17 @@ public:
     /// Until this many are known the lead is kUnlearntLead of a period.
     static constexpr std::size_t kEnough = 16;
     static constexpr double kUnlearntLead = 0.8;
-    static constexpr double kQuantile = 0.99;
+    /// So many growths in a hundred, but one at least, are left out as too large: disturbances come in threes and fours
+    /// (the first pictures of all are one), and with 1 % kept the lead at a whole period for the three seconds after.
+    static constexpr std::size_t kLeftOut_percent = 2;
 
 private:
     using Window = std::array<Duration, kWindow>;
 
     [[nodiscard]] Duration smallest_margin(Duration period) const;
     [[nodiscard]] Duration margin(Duration period) const { return std::max(margin_, smallest_margin(period)); }
-    [[nodiscard]] Duration quantile_of(const Window& window, double quantile) const;
+    /// The value that `larger` others in the window are larger than, or as large.
+    [[nodiscard]] Duration largest_but(const Window& window, std::size_t larger) const;
 
     PacerSettings settings_;
     Duration margin_{};  ///< after misses; at least the smallest
@@ -90,7 +95,7 @@ private:
     Duration last_work_{};
     Duration expected_work_{};  ///< the longer of the last two
     Duration ordinary_work_{};  ///< median of the window
-    Duration fast_growth_{};    ///< kQuantile of the window, not below 0
+    Duration fast_growth_{};    ///< the largest of the window but those left out, not below 0
 };
 
 }  // namespace lw

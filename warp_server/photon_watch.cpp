@@ -7,7 +7,8 @@ namespace lw {
 PhotonWatch::PhotonWatch(const SteadyRefreshes& refreshes, const PhotonWatchSettings& settings)
     : refreshes_{refreshes}, settings_{settings}, codes_(static_cast<std::size_t>(settings.strips)) {
     LW_CHECK(settings.strips >= 1, "a display of no strips");
-    seen_.reserve(settings.reserved_parts);
+    seen_.resize(settings.reserved_parts);  // written, so that no scan waits for the machine to find memory
+    seen_.clear();
 }
 
 TimePoint PhotonWatch::scanout_begin(std::uint64_t slot) const {

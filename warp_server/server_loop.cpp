@@ -14,7 +14,9 @@ TimePoint view_pose_sampled(const RenderedFrame& frame) { return frame.layers.fr
 
 ServerLoop::ServerLoop(const ServerParts& parts, const ServerSettings& settings)
     : parts_{parts}, settings_{settings}, pacer_{settings.pacer} {
-    records_.reserve(settings.reserved_refreshes);
+    // Written, not only reserved: no picture waits for the machine to find memory, and a long run takes no more of it.
+    records_.resize(settings.reserved_refreshes);
+    records_.clear();
 }
 
 void ServerLoop::run() {

@@ -102,8 +102,24 @@ TEST(Pacer, ASingleDisturbanceDoesNotKeepTheLeadLong) {
     bool disturbed = false;
     run(pacer, 0.1, [&] { return std::exchange(disturbed, true) ? from_ms(3.0) : from_ms(30.0); });
     run(pacer, 8.0, [] { return from_ms(3.0); });
-    // The window forgets the 30 ms at once (one of 256 is beyond p99); the margin's step of 0.5 ms wears off at 1/500
-    // per refresh: after 700 refreshes it is gone.
+    // The window leaves the 30 ms out, and no lead would have helped.
+    EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.05 + 0.125 * 1000.0 / kHz);
+}
+
+TEST(Pacer, DisturbancesInARowDoNotKeepTheLeadLong) {
+    Pacer pacer;
+    run(pacer, 4.0, [] { return from_ms(3.0); });
+    int pictures = 0;
+    const auto disturbed = [&] { return ++pictures % 9 == 0 ? from_ms(8.5) : from_ms(3.0); };
+    EXPECT_EQ(run(pacer, 0.4, disturbed).missed, 4);
+    run(pacer, 0.1, [] { return from_ms(3.0); });
+    EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.05 + 4 * 0.25 + 0.125 * 1000.0 / kHz);
+}
+
+TEST(Pacer, TheFirstPicturesDoNotKeepTheLeadLong) {
+    Pacer pacer;
+    int pictures = 0;
+    run(pacer, 0.4, [&] { return ++pictures < 3 ? from_ms(12.0) : from_ms(3.0); });
     EXPECT_LE(to_ms(pacer.lead(from_seconds(1.0 / kHz))), 3.05 + 0.125 * 1000.0 / kHz);
 }
 

@@ -52,6 +52,10 @@ void HtmlReport::add_plot(const SvgPlot& plot) {
     body_ += fmt::format("<h2>{}</h2>\n{}", xml_escaped(plot.title), svg_of(plot, SvgUse::inside_html));
 }
 
+void HtmlReport::add_lanes(const SvgLanes& lanes) {
+    body_ += fmt::format("<h2>{}</h2>\n{}", xml_escaped(lanes.title), svg_of(lanes, SvgUse::inside_html));
+}
+
 void HtmlReport::add_plot(const LinePlot& plot) {
     if (plot.x.size() < 2) return;
     SvgPlot svg{plot.title, plot.x_label, plot.y_label};

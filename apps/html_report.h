@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/svg_lanes.h"
 #include "apps/svg_plot.h"
 #include "core/result.h"
 
@@ -40,6 +41,7 @@ public:
     void add_plot(const LinePlot& plot);
     /// With the plot's title as its heading.
     void add_plot(const SvgPlot& plot);
+    void add_lanes(const SvgLanes& lanes);
     void add_png(std::span<const std::uint8_t> png_bytes, const std::string& caption);
 
     [[nodiscard]] std::string text() const;

@@ -1,5 +1,5 @@
 #pragma once
-/// The pictures of a measurement: what each thread did when, latencies over time, and how they are distributed.
+/// The page of a measurement: what each thread did when, latencies over time, and how they are distributed.
 
 #include <string>
 #include <vector>
@@ -8,11 +8,6 @@
 #include "apps/svg_plot.h"
 
 namespace lw {
-
-/// What each thread did during at least `span` in the middle of the run, while one frame is drawn and first shown: the
-/// client draws, the server waits, warps and presents, the display scans out; and the life of one rendered frame from
-/// its head sample to the photons. Pure.
-[[nodiscard]] SvgPlot timeline_of(const LiveResult& result, Duration span);
 
 /// Shares of the values in bins of equal width, as an outline. Pure.
 [[nodiscard]] SvgPlot histogram_of(const std::string& title, const std::string& x_label,

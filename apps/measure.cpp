@@ -4,6 +4,7 @@
 
 #include "apps/latency_page.h"
 #include "apps/live_report.h"
+#include "apps/live_timeline.h"
 #include "apps/scene_stage.h"
 #include "apps/subcommands.h"
 

@@ -3,9 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include "core/check.h"
 
@@ -13,94 +11,14 @@ namespace lw {
 
 namespace {
 
-// Dark enough on white, and apart in lightness too; the shapes tell the same apart without colour. Ten colours and
-// seven shapes: no two styles are equal before the seventieth.
-constexpr std::array<const char*, 10> kPalette = {"#0b5fa5", "#d1495b", "#e08e1b", "#2e8b57", "#7b4ea3",
-                                                  "#6b6b6b", "#00a2b8", "#8a5a2b", "#b83fa0", "#5f7d0e"};
+// Ten colours and seven shapes: no two styles are equal before the seventieth.
 constexpr std::size_t kShapes = 7;
 constexpr double kMarker_px = 4.0;
-constexpr double kLetter_px = 6.4;  // mean width of a letter at 12 px, sans-serif
 constexpr double kLine_px = 18.0;
-
-struct Span {
-    double min = std::numeric_limits<double>::infinity();
-    double max = -std::numeric_limits<double>::infinity();
-
-    void add(double value) {
-        min = std::min(min, value);
-        max = std::max(max, value);
-    }
-    [[nodiscard]] bool empty() const { return !(min <= max); }
-};
-
-/// Maps values to [0, 1] along an axis, and knows where its grid lines are.
-class Axis {
-public:
-    Axis(Span values, bool logarithmic, bool from_zero) : logarithmic_{logarithmic} {
-        if (values.empty()) values = {logarithmic ? 1.0 : 0.0, logarithmic ? 10.0 : 1.0};
-        if (logarithmic) {
-            make_decades(values);
-        } else {
-            if (from_zero) values.add(0.0);
-            make_steps(values);
-        }
-    }
-
-    [[nodiscard]] bool shows(double value) const { return std::isfinite(value) && (!logarithmic_ || value > 0.0); }
-    [[nodiscard]] double part(double value) const {
-        if (!logarithmic_) return (value - ticks_.front()) / (ticks_.back() - ticks_.front());
-        return std::log(value / ticks_.front()) / std::log(ticks_.back() / ticks_.front());
-    }
-    /// Ascending, at least two; the first and the last are the ends of the axis.
-    [[nodiscard]] const std::vector<double>& ticks() const { return ticks_; }
-
-private:
-    /// Steps of 1, 2 or 5 times a power of ten, about five of them.
-    void make_steps(Span values) {
-        if (values.max - values.min < 1e-12 * std::max(1.0, std::abs(values.max))) {
-            values = {values.min - 0.5, values.max + 0.5};
-        }
-        const double raw = (values.max - values.min) / 5.0;
-        const double decade = std::pow(10.0, std::floor(std::log10(raw)));
-        double step = 10.0 * decade;
-        for (const double factor : {5.0, 2.0, 1.0}) {
-            if (factor * decade >= raw) step = factor * decade;
-        }
-        const double first = std::floor(values.min / step + 1e-9);
-        const double last = std::max(first + 1.0, std::ceil(values.max / step - 1e-9));
-        for (double i = first; i <= last; i += 1.0) ticks_.push_back(i * step + 0.0);
-    }
-
-    /// 1, 2 and 5 times the powers of ten; the powers alone where there would be too many.
-    void make_decades(Span values) {
-        const int first = static_cast<int>(std::floor(std::log10(values.min)));
-        const int last = std::max(first + 1, static_cast<int>(std::ceil(std::log10(values.max))));
-        const bool wide = last - first > 3;
-        std::vector<double> all;
-        for (int decade = first; decade <= last; ++decade) {
-            for (const double factor : {1.0, 2.0, 5.0}) {
-                if (factor == 1.0 || !wide) all.push_back(factor * std::pow(10.0, decade));
-            }
-        }
-        constexpr double kRounding = 1e-9;
-        auto begin = std::upper_bound(all.begin(), all.end(), values.min * (1.0 + kRounding));
-        if (begin != all.begin()) --begin;
-        auto end = std::lower_bound(begin, all.end(), values.max * (1.0 - kRounding));
-        if (end != all.end()) ++end;
-        if (end - begin < 2) {  // one value that is a tick itself
-            if (begin != all.begin()) --begin;
-            if (end != all.end()) ++end;
-        }
-        ticks_.assign(begin, end);
-    }
-
-    bool logarithmic_;
-    std::vector<double> ticks_;
-};
 
 std::string marker(std::size_t style, double x, double y) {
     const double r = kMarker_px;
-    const char* colour = kPalette[style % kPalette.size()];
+    const char* colour = svg_colour(style);
     const auto polygon = [&](std::initializer_list<std::pair<double, double>> corners) {
         std::string points;
         for (const auto& [dx, dy] : corners) points += fmt::format("{:.1f},{:.1f} ", x + dx * r, y + dy * r);
@@ -145,15 +63,15 @@ public:
     }
 
     [[nodiscard]] std::string text() const {
-        std::string out = head() + grid() + labels();
+        std::string out = svg_head(plot_.title, plot_.width_px, plot_.height_px, kLeft_px, use_) + grid() + labels();
         for (std::size_t i = 0; i < plot_.series.size(); ++i) out += drawn(i);
         return out + legend() + "</svg>\n";
     }
 
 private:
-    [[nodiscard]] Span span_of(std::vector<double> SvgSeries::*values) const {
+    [[nodiscard]] SvgSpan span_of(std::vector<double> SvgSeries::*values) const {
         const bool logarithmic = values == &SvgSeries::x ? plot_.log_x : plot_.log_y;
-        Span span;
+        SvgSpan span;
         for (const SvgSeries& series : plot_.series) {
             for (const double value : series.*values) {
                 if (std::isfinite(value) && (!logarithmic || value > 0.0)) span.add(value);
@@ -165,25 +83,12 @@ private:
     [[nodiscard]] double legend_width_px() const {
         std::size_t longest = 0;
         for (const SvgSeries& series : plot_.series) longest = std::max(longest, series.label.size());
-        return longest == 0 ? 0.0 : 44.0 + kLetter_px * static_cast<double>(longest);
+        return longest == 0 ? 0.0 : 44.0 + kSvgLetter_px * static_cast<double>(longest);
     }
 
     [[nodiscard]] double x_px(double x) const { return kLeft_px + x_.part(x) * (right_px_ - kLeft_px); }
     [[nodiscard]] double y_px(double y) const { return bottom_px_ - y_.part(y) * (bottom_px_ - top_px_); }
     [[nodiscard]] std::size_t style_of(std::size_t series) const { return plot_.series[series].style.value_or(series); }
-
-    [[nodiscard]] std::string head() const {
-        std::string out = "<svg";
-        if (use_ == SvgUse::standalone) out += " xmlns=\"http://www.w3.org/2000/svg\"";
-        out += fmt::format(" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"{}\">\n", plot_.width_px, plot_.height_px,
-                           xml_escaped(plot_.title));
-        if (use_ == SvgUse::inside_html) return out;
-        return out + fmt::format(
-                         "<style>text{{font:12px system-ui,sans-serif;fill:#444}}</style>\n"
-                         "<rect width=\"{}\" height=\"{}\" fill=\"#fff\"/>\n"
-                         "<text x=\"{}\" y=\"20\" style=\"font-size:14px;font-weight:600\">{}</text>\n",
-                         plot_.width_px, plot_.height_px, kLeft_px, xml_escaped(plot_.title));
-    }
 
     [[nodiscard]] std::string grid() const {
         std::string out;
@@ -228,7 +133,7 @@ private:
 
     /// Beside the point on the side that has room.
     [[nodiscard]] std::string note(const std::string& text, double x, double y) const {
-        const bool left = x + 8.0 + kLetter_px * static_cast<double>(text.size()) > right_px_;
+        const bool left = x + 8.0 + kSvgLetter_px * static_cast<double>(text.size()) > right_px_;
         return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\"{}>{}</text>\n", left ? x - 7.0 : x + 7.0, y - 5.0,
                            left ? " text-anchor=\"end\"" : "", xml_escaped(text));
     }
@@ -246,7 +151,7 @@ private:
             pen_down = true;
         }
         return fmt::format("<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{}\"{}/>\n", path,
-                           kPalette[style_of(index) % kPalette.size()], index == 0 ? 2.4 : 1.6,
+                           svg_colour(style_of(index)), index == 0 ? 2.4 : 1.6,
                            series.dashed ? " stroke-dasharray=\"6 4\"" : "");
     }
 
@@ -261,8 +166,7 @@ private:
                 out += fmt::format(
                     "<line x1=\"{:.1f}\" x2=\"{:.1f}\" y1=\"{:.1f}\" y2=\"{:.1f}\" stroke=\"{}\" "
                     "stroke-width=\"2\"{}/>\n",
-                    x, x + 20.0, y, y, kPalette[style_of(i) % kPalette.size()],
-                    series.dashed ? " stroke-dasharray=\"6 4\"" : "");
+                    x, x + 20.0, y, y, svg_colour(style_of(i)), series.dashed ? " stroke-dasharray=\"6 4\"" : "");
             }
             if (series.marks != SvgMarks::line) out += marker(style_of(i), x + 10.0, y);
             out += fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\">{}</text>\n", x + 26.0, y + 4.0,
@@ -276,8 +180,8 @@ private:
 
     const SvgPlot& plot_;
     SvgUse use_;
-    Axis x_;
-    Axis y_;
+    SvgAxis x_;
+    SvgAxis y_;
     double top_px_ = 0.0;
     double right_px_ = 0.0;
     double bottom_px_ = 0.0;
@@ -286,28 +190,5 @@ private:
 }  // namespace
 
 std::string svg_of(const SvgPlot& plot, SvgUse use) { return PlotWriter{plot, use}.text(); }
-
-std::string xml_escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            case '"':
-                out += "&quot;";
-                break;
-            default:
-                out += c;
-        }
-    }
-    return out;
-}
 
 }  // namespace lw

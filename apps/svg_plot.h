@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "apps/svg_parts.h"
+
 namespace lw {
 
 enum class SvgMarks {
@@ -47,16 +49,8 @@ struct SvgPlot {
     double height_px = 360.0;
 };
 
-enum class SvgUse {
-    standalone,   ///< a file of its own, title included
-    inside_html,  ///< an element of a page, which has the title as its heading
-};
-
 /// The whole <svg> element, ending with a line break. A plot without a usable point has empty axes. Equal plots give
 /// equal bytes. Pure, any thread.
 [[nodiscard]] std::string svg_of(const SvgPlot& plot, SvgUse use);
-
-/// With &, <, > and " as entities: text for SVG and HTML. Pure, any thread.
-[[nodiscard]] std::string xml_escaped(const std::string& text);
 
 }  // namespace lw

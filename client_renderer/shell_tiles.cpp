@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "core/camera_picture.h"
 #include "core/check.h"
 
 namespace lw {
@@ -22,14 +23,12 @@ constexpr int kRimPx = 2;
 
 ShellTiles::Probes probes_of(const Camera& camera) {
     ShellTiles::Probes probes;
-    const FovTangents& fov = camera.fov;
     for (int i = 0; i < ShellTiles::kProbesPerSide; ++i) {
         for (int j = 0; j < ShellTiles::kProbesPerSide; ++j) {
             const double u = (j + 0.5) / ShellTiles::kProbesPerSide;
             const double v = (i + 0.5) / ShellTiles::kProbesPerSide;
-            const glm::dvec3 ray{glm::mix(fov.left, fov.right, u), glm::mix(fov.down, fov.up, v), -1.0};
             probes[static_cast<std::size_t>(i * ShellTiles::kProbesPerSide + j)] =
-                glm::normalize(camera.world_from_eye.orientation * ray);
+                glm::normalize(direction_at(camera, u, v));
         }
     }
     return probes;
@@ -67,17 +66,7 @@ Camera ShellTiles::camera(int tile, const glm::dvec3& eye_world) const {
 
 glm::dvec3 ShellTiles::middle(int tile) const {
     const Camera& camera = cameras_[static_cast<std::size_t>(tile)];
-    const FovTangents& fov = camera.fov;
-    return glm::normalize(camera.world_from_eye.orientation *
-                          glm::dvec3{0.5 * (fov.left + fov.right), 0.5 * (fov.down + fov.up), -1.0});
-}
-
-bool sees(const Camera& camera, const glm::dvec3& direction_world) {
-    const glm::dvec3 ray = glm::conjugate(camera.world_from_eye.orientation) * direction_world;
-    if (ray.z >= 0.0) return false;
-    const double x = ray.x / -ray.z;
-    const double y = ray.y / -ray.z;
-    return x >= camera.fov.left && x <= camera.fov.right && y >= camera.fov.down && y <= camera.fov.up;
+    return glm::normalize(direction_at(camera, 0.5, 0.5));
 }
 
 }  // namespace lw

@@ -38,7 +38,4 @@ private:
     double display_pixels_ = 0.0;
 };
 
-/// Whether a camera sees a direction of world space.
-[[nodiscard]] bool sees(const Camera& camera, const glm::dvec3& direction_world);
-
 }  // namespace lw

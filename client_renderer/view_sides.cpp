@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "client_renderer/shell_tiles.h"
+#include "core/camera_picture.h"
 
 namespace lw {
 namespace {
@@ -61,12 +61,11 @@ double share_left_open(const Camera& whole, const Camera& side, const Camera& ot
     int shown = 0;
     int open = 0;
     for (const Pose& pose : poses) {
-        const FovTangents& fov = display.fov;
+        const Camera shown_at = at_pose(display, pose);
         for (int y = 0; y < kProbesPerSide; ++y) {
             for (int x = 0; x < kProbesPerSide; ++x) {
-                const glm::dvec3 ray{glm::mix(fov.left, fov.right, (x + 0.5) / kProbesPerSide),
-                                     glm::mix(fov.down, fov.up, (y + 0.5) / kProbesPerSide), -1.0};
-                const glm::dvec3 direction = pose.orientation * ray;
+                const glm::dvec3 direction =
+                    direction_at(shown_at, (x + 0.5) / kProbesPerSide, (y + 0.5) / kProbesPerSide);
                 if (!sees(whole, direction)) continue;
                 ++shown;
                 open += sees(side, direction) || sees(other, direction) ? 0 : 1;

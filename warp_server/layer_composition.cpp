@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/camera_picture.h"
 #include "core/check.h"
 #include "warp_server/held_depths.h"
 #include "warp_server/methods/homography_resample.h"
@@ -41,8 +42,6 @@ bool covers_all(const ViewCover& cover, const Camera& target) {
     const glm::ivec2 last = target.size_px - 1;
     return cover.covers(0, 0) && cover.covers(last.x, 0) && cover.covers(0, last.y) && cover.covers(last.x, last.y);
 }
-
-double pixel_count(const Camera& camera) { return static_cast<double>(camera.size_px.x) * camera.size_px.y; }
 
 // What lies behind the view comes before the next shell, and older tiles come last.
 float depth_share_of(const Layer& layer, const Layer& view) {

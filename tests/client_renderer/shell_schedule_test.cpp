@@ -5,11 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "client_renderer/shell_budget.h"
 #include "client_renderer/shell_priority.h"
 #include "client_renderer/shell_ranges.h"
 #include "client_renderer/shell_tiles.h"
+#include "client_renderer/tile_savings.h"
+#include "core/camera_picture.h"
 #include "tests/client_renderer/hand_made_scenes.h"
 
 namespace lw {
@@ -219,6 +222,26 @@ TEST(CostBook, FollowsWhatIsMeasured) {
     EXPECT_LT(costs.expected_ms(0, 7.0), 20.0);
     for (int i = 0; i < 20; ++i) costs.learn(0, 20.0);
     EXPECT_NEAR(costs.expected_ms(0, 7.0), 20.0, 0.01);
+}
+
+TEST(TileSavings, OfEveryFrameATenthIsSavedUntilATileFits) {
+    TileSavings savings;
+    BudgetSettings budget{10.0};
+    const std::vector<DrawCandidate> tiles{{1, 0.5, 1.0, 0.0}, {2, 5.0, 2.5, 0.0}};  // the first is valid
+    for (const double needed_ms : {0.0, 0.0, 2.5, 2.5}) {
+        savings.save(10.0);
+        EXPECT_EQ(savings.needed_ms(tiles, budget), needed_ms);
+    }
+    savings.spend(2.5);
+    EXPECT_EQ(savings.needed_ms(tiles, budget), 0.0) << "1.5 ms are left";
+}
+
+TEST(TileSavings, WhatIsWorthMoreThanADenserViewGetsTwoFifthsAtMost) {
+    const TileSavings savings;
+    const std::vector<DrawCandidate> tiles{{1, 100.0, 3.0, 0.0}, {2, 80.0, 2.0, 0.0}, {3, 60.0, 1.0, 0.0}};
+    EXPECT_EQ(savings.needed_ms(tiles, {10.0}), 4.0) << "the second does not fit beside the first";
+    EXPECT_EQ(savings.needed_ms(std::span{tiles}.subspan(1), {10.0}), 3.0);
+    EXPECT_EQ(savings.needed_ms({}, {10.0}), 0.0);
 }
 
 }  // namespace

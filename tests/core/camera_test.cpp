@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "core/camera_picture.h"
+
 namespace lw {
 namespace {
 
@@ -95,6 +97,27 @@ TEST(Camera, PixelsPerDegreeAtTheImageCentre) {
     camera.size_px = {1024, 1024};
     camera.fov = FovTangents::symmetric(kPi / 2, 1.0);
     EXPECT_NEAR(pixels_per_degree(camera), kPi / 180.0 * 512.0, 1e-12);  // 8.94
+}
+
+TEST(CameraPicture, CornersAreTheTangentsTurnedWithTheEye) {
+    const Camera camera = asymmetric_camera();
+    EXPECT_EQ(pixel_count(camera), 20000.0);
+    EXPECT_EQ(direction_at(camera, 0.0, 0.0), glm::dvec3(-0.8, 1.5, -1.0));
+    EXPECT_EQ(direction_at(camera, 1.0, 1.0), glm::dvec3(1.2, -0.5, -1.0));
+    const Pose to_the_left{{1.0, 2.0, 3.0}, glm::angleAxis(kPi / 2, glm::dvec3{0.0, 1.0, 0.0})};
+    const Camera turned = at_pose(camera, to_the_left);
+    EXPECT_EQ(turned.world_from_eye, to_the_left);
+    EXPECT_EQ(turned.fov, camera.fov);
+    EXPECT_LT(glm::distance(direction_at(turned, 0.0, 0.0), glm::dvec3(-1.0, 1.5, 0.8)), 1e-12);
+}
+
+TEST(CameraPicture, SeesWhatItsTangentsHold) {
+    const Camera camera = asymmetric_camera();
+    EXPECT_TRUE(sees(camera, {-0.79, 1.49, -1.0}));
+    EXPECT_TRUE(sees(camera, {-7.9, 14.9, -10.0})) << "of any length";
+    EXPECT_FALSE(sees(camera, {-0.81, 0.0, -1.0}));
+    EXPECT_FALSE(sees(camera, {0.0, -0.51, -1.0}));
+    EXPECT_FALSE(sees(camera, {0.0, 0.0, 1.0})) << "behind the eye";
 }
 
 }  // namespace

@@ -62,6 +62,16 @@ constexpr std::uint32_t kWorthADraw = 3 * 32;
 
 }  // namespace
 
+ClusterCounters& ClusterCounters::operator+=(const ClusterCounters& other) {
+    tested += other.tested;
+    outside += other.outside;
+    turned_away += other.turned_away;
+    occluded += other.occluded;
+    too_small += other.too_small;
+    between_samples += other.between_samples;
+    return *this;
+}
+
 void ClusterRange::include(const scene::Bounds& cluster) {
     least_object = glm::min(least_object, glm::vec3{cluster.min});
     most_object = glm::max(most_object, glm::vec3{cluster.max});
@@ -168,11 +178,10 @@ ClusterPlacement Clusters::placement(const glm::dmat4& world_from_object) const 
     return placement;
 }
 
-void Clusters::test(const ClusterRange& range, const glm::dmat4& world_from_object, std::vector<std::uint64_t>& shown) {
-    const std::size_t first_word = shown.size();
-    shown.resize(first_word + (range.count + 63) / 64, 0);
-    counters_.tested += range.count;
-    HWY_DYNAMIC_DISPATCH(test_here)(*this, range, placement(world_from_object), shown.data() + first_word, counters_);
+void Clusters::test(const ClusterRange& range, const glm::dmat4& world_from_object, std::span<std::uint64_t> shown,
+                    ClusterCounters& counters) const {
+    counters.tested += range.count;
+    HWY_DYNAMIC_DISPATCH(test_here)(*this, range, placement(world_from_object), shown.data(), counters);
 }
 
 void Clusters::append_runs(const ClusterRange& part, std::span<const std::uint64_t> shown, std::size_t first_bit,

@@ -43,6 +43,8 @@ struct ClusterCounters {
     std::uint64_t occluded = 0;
     std::uint64_t too_small = 0;
     std::uint64_t between_samples = 0;
+
+    ClusterCounters& operator+=(const ClusterCounters& other);
 };
 
 /// What is known of a view when clusters are tested.
@@ -63,7 +65,7 @@ struct ClusterPlacement {
     float margin_object = 0.0F;
 };
 
-/// One thread at a time.
+/// One thread at a time, but for what says otherwise.
 class Clusters {
 public:
     static constexpr std::size_t kMostVertices = 64;
@@ -83,20 +85,24 @@ public:
     /// Ends adding.
     void finish();
 
-    /// Before the runs of a view; what the view points to outlives them.
+    /// Before the tests of a view; what the view points to outlives them.
     void begin(const ClusterView& view);
 
-    /// Appends one bit for each cluster of the range, first lowest, up to a whole word: set for those that an instance
-    /// shows. It may keep what is not seen, never leave out what is.
-    void test(const ClusterRange& range, const glm::dmat4& world_from_object, std::vector<std::uint64_t>& shown);
+    /// Sets one bit for each cluster of the range that an instance shows, first lowest. It may keep what is not seen,
+    /// never leave out what is. Any thread.
+    /// @param shown     words_for() the range, zeros
+    /// @param counters  grow by what became of the clusters
+    void test(const ClusterRange& range, const glm::dmat4& world_from_object, std::span<std::uint64_t> shown,
+              ClusterCounters& counters) const;
+
+    /// Words that hold one bit per cluster.
+    [[nodiscard]] static std::size_t words_for(const ClusterRange& range) { return (range.count + 63) / 64; }
 
     /// Appends the runs of a part.
     /// @param shown      bits of test() for a range that holds the part's
     /// @param first_bit  of the part's clusters
     void append_runs(const ClusterRange& part, std::span<const std::uint64_t> shown, std::size_t first_bit,
                      std::vector<IndexRun>& runs) const;
-
-    [[nodiscard]] ClusterCounters& counters() { return counters_; }
 
     /// By cluster: all of its triangles are turned away from an eye when dot(axis, apex - eye) >= cutoff *
     /// |apex - eye|. A cutoff above 1: never.
@@ -133,7 +139,6 @@ private:
     View view_;
     glm::dvec3 eye_world_{0.0};
     double reveal_margin_m_ = 0.0;
-    ClusterCounters counters_;
 };
 
 }  // namespace lw

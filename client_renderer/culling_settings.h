@@ -10,6 +10,7 @@ struct CullingSettings {
     bool clusters = true;          ///< also clusters of triangles of what is drawn
     double min_pixels = 0.0;       ///< what looks smaller across is left out while the viewer moves; 0: nothing is
     double reveal_margin_m = 0.0;  ///< what is hidden must stay so for every eye within this distance, >= 0
+    int threads = 0;               ///< that share the work, the renderer's included; 0: two, where the machine has them
 };
 
 }  // namespace lw

@@ -10,6 +10,8 @@ namespace {
 
 // What is seen lies scattered over a large scene: each object would be waited for.
 constexpr std::size_t kAhead = 8;
+// Instances differ in what their clusters cost.
+constexpr std::size_t kRunsPerThread = 4;
 
 double distance_to_box_m(const glm::dvec3& place, const scene::Bounds& box) {
     return glm::distance(place, glm::clamp(place, box.min, box.max));
@@ -36,12 +38,13 @@ DrawList::DrawList(const PlacedInstances& placed, DrawOrder order) : placed_{pla
     }
 }
 
-void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& camera, Clusters* clusters) {
+void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& camera, bool by_clusters) {
     const glm::dvec3& eye_world = camera.world_from_eye.position_m;
     packed_.clear();
     placed_of_packed_.clear();
     shown_of_packed_.clear();
-    shown_.clear();
+    tests_.clear();
+    words_ = 0;
     for (auto& zone : visible_) {
         for (auto& ranges : zone) std::ranges::fill(ranges, VisibleRange{});
     }
@@ -54,12 +57,12 @@ void DrawList::collect(std::span<const std::uint32_t> visible, const Camera& cam
         collected_[zone][placed.mirrored ? 1 : 0].push_back(visible[i]);
         const int mesh = placed.mesh;
         const bool last_of_mesh = i + 1 == visible.size() || placed_[visible[i + 1]].mesh != mesh;
-        if (last_of_mesh) end_mesh(static_cast<std::size_t>(mesh), eye_world, clusters);
+        if (last_of_mesh) end_mesh(static_cast<std::size_t>(mesh), eye_world, by_clusters);
     }
 }
 
-void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world, Clusters* clusters) {
-    const bool by_clusters = clusters != nullptr && clusters_of_meshes_[mesh].count > 0;
+void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world, bool by_clusters) {
+    const std::size_t words = by_clusters ? Clusters::words_for(clusters_of_meshes_[mesh]) : 0;
     for (std::size_t zone = 0; zone < kZones; ++zone) {
         for (std::size_t mirrored = 0; mirrored < 2; ++mirrored) {
             std::vector<std::uint32_t>& collected = collected_[zone][mirrored];
@@ -69,8 +72,9 @@ void DrawList::end_mesh(std::size_t mesh, const glm::dvec3& eye_world, Clusters*
                 const PlacedInstance& placed = placed_[index];
                 packed_.push_back(packed_instance(placed.world_from_object, eye_world, placed.mover));
                 placed_of_packed_.push_back(index);
-                shown_of_packed_.push_back(static_cast<std::uint32_t>(shown_.size()));
-                if (by_clusters) clusters->test(clusters_of_meshes_[mesh], placed.world_from_object, shown_);
+                shown_of_packed_.push_back(static_cast<std::uint32_t>(words_));
+                if (words > 0) tests_.push_back({index, static_cast<std::uint32_t>(words_)});
+                words_ += words;
             }
             collected.clear();
         }
@@ -83,13 +87,48 @@ void DrawList::build(std::span<const std::uint32_t> visible, const Camera& camer
         clusters.clusters->begin(clusters.view);
         find_clusters_of_meshes(batches);
     }
-    collect(visible, camera, clusters.clusters);
+    collect(visible, camera, clusters.clusters != nullptr);
+    cluster_counters_ = {};
+    if (!tests_.empty()) test_clusters(clusters);
     commands_.clear();
     ranges_.clear();
     triangles_drawn_ = 0;
     states_.clear();
     if (!order_.grouped) return append_by_distance(camera, batches, clusters);
     for (std::size_t zone = 0; zone < kZones; ++zone) append_ranges(zone, batches, clusters);
+}
+
+// In runs of about equally many clusters.
+void DrawList::test_clusters(const ClusterUse& clusters) {
+    shown_.assign(words_, 0);
+    tested_ = clusters.clusters;
+    const std::size_t count =
+        clusters.threads == nullptr ? 1 : kRunsPerThread * static_cast<std::size_t>(clusters.threads->threads());
+    test_runs_.assign(count, {});
+    const auto first_of = [&](std::size_t run) {
+        const auto word = static_cast<std::uint32_t>(words_ * run / count);
+        return static_cast<std::size_t>(std::ranges::lower_bound(tests_, word, {}, &ClusterTest::first_word) -
+                                        tests_.begin());
+    };
+    for (std::size_t i = 0; i < count; ++i)
+        test_runs_[i] = {first_of(i), i + 1 == count ? tests_.size() : first_of(i + 1), {}};
+    if (clusters.threads == nullptr) {
+        test_run(*tested_, test_runs_.front());
+    } else {
+        clusters.threads->run(static_cast<int>(count), test_run_);
+    }
+    for (const TestRun& run : test_runs_) cluster_counters_ += run.counters;
+}
+
+void DrawList::test_run(const Clusters& clusters, TestRun& run) {
+    ClusterCounters counters;  // its own: neighbouring runs' would lie in one cache line
+    for (std::size_t i = run.first; i < run.end; ++i) {
+        const PlacedInstance& placed = placed_[tests_[i].placed];
+        const ClusterRange& range = clusters_of_meshes_[static_cast<std::size_t>(placed.mesh)];
+        clusters.test(range, placed.world_from_object,
+                      std::span{shown_}.subspan(tests_[i].first_word, Clusters::words_for(range)), counters);
+    }
+    run.counters = counters;
 }
 
 void DrawList::find_clusters_of_meshes(std::span<const std::vector<MeshPart>> batches) {

@@ -14,6 +14,7 @@
 #include "client_renderer/packed_vertex.h"
 #include "client_renderer/placed_instances.h"
 #include "core/camera.h"
+#include "core/task_pool.h"
 #include "scene/scene.h"
 
 namespace lw {
@@ -50,6 +51,7 @@ struct DrawRange {
 struct ClusterUse {
     Clusters* clusters = nullptr;  ///< null: as a whole
     ClusterView view;
+    TaskPool* threads = nullptr;  ///< that share the tests; null: the caller's alone
 };
 
 /// Keeps its memory between frames. One thread at a time.
@@ -60,8 +62,8 @@ public:
 
     /// Fills the list with the instances `visible` (indices into the placed ones, ascending), as seen by `camera`.
     /// `batches[b]` are the parts drawn with the state of batch b. Leaving an instance out does not change the order of
-    /// the others, nor does leaving out clusters. Transforms are composed in double relative to the eye and rounded to
-    /// float once.
+    /// the others, nor does leaving out clusters. Any number of threads gives the same list. Transforms are composed in
+    /// double relative to the eye and rounded to float once.
     void build(std::span<const std::uint32_t> visible, const Camera& camera,
                std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters = {});
 
@@ -72,6 +74,8 @@ public:
     [[nodiscard]] const std::vector<std::uint32_t>& arriving_states() const { return states_; }
     [[nodiscard]] std::uint64_t objects_drawn() const { return packed_.size(); }
     [[nodiscard]] std::uint64_t triangles_drawn() const { return triangles_drawn_; }
+    /// Of the last build().
+    [[nodiscard]] const ClusterCounters& cluster_counters() const { return cluster_counters_; }
 
 private:
     struct VisibleRange {
@@ -79,8 +83,22 @@ private:
         std::uint32_t count = 0;
     };
 
-    void collect(std::span<const std::uint32_t> visible, const Camera& camera, Clusters* clusters);
-    void end_mesh(std::size_t mesh, const glm::dvec3& eye_world, Clusters* clusters);
+    // An instance whose clusters are tested.
+    struct ClusterTest {
+        std::uint32_t placed = 0;      ///< index into placed_
+        std::uint32_t first_word = 0;  ///< in shown_
+    };
+    // Tests of one thread.
+    struct TestRun {
+        std::size_t first = 0;  ///< of tests_
+        std::size_t end = 0;
+        ClusterCounters counters;
+    };
+
+    void collect(std::span<const std::uint32_t> visible, const Camera& camera, bool by_clusters);
+    void end_mesh(std::size_t mesh, const glm::dvec3& eye_world, bool by_clusters);
+    void test_clusters(const ClusterUse& clusters);
+    void test_run(const Clusters& clusters, TestRun& run);
     void find_clusters_of_meshes(std::span<const std::vector<MeshPart>> batches);
     void append_ranges(std::size_t zone, std::span<const std::vector<MeshPart>> batches, const ClusterUse& clusters);
     void append_part(const MeshPart& part, const VisibleRange& visible, const ClusterUse& clusters);
@@ -99,6 +117,11 @@ private:
     std::vector<std::uint32_t> placed_of_packed_;  ///< indices into placed_
     std::vector<std::uint32_t> shown_of_packed_;   ///< first words of shown_, where a mesh has clusters
     std::vector<std::uint64_t> shown_;             ///< clusters, one bit each
+    std::size_t words_ = 0;                        ///< of shown_, of what is collected
+    std::vector<ClusterTest> tests_;
+    std::vector<TestRun> test_runs_;
+    const Clusters* tested_ = nullptr;
+    ClusterCounters cluster_counters_;
     std::vector<ClusterRange> clusters_of_meshes_;
     std::array<std::array<std::vector<std::uint32_t>, 2>, kZones> collected_;  ///< of the mesh being collected
     std::vector<IndexRun> runs_;
@@ -109,6 +132,10 @@ private:
     std::vector<DrawCommand> arrived_;
     std::vector<std::pair<double, std::uint32_t>> by_distance_;  ///< indices into packed_
     std::uint64_t triangles_drawn_ = 0;
+    // Kept, because making a function object may allocate.
+    TaskPool::Work test_run_ = [this](int run, int /*worker*/) {
+        test_run(*tested_, test_runs_[static_cast<std::size_t>(run)]);
+    };
 };
 
 }  // namespace lw

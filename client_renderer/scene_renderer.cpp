@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <thread>
 #include <utility>
 
 #include "client_renderer/billboard_painter.h"
@@ -15,6 +16,7 @@
 #include "client_renderer/lighting_pass.h"
 #include "client_renderer/render_targets.h"
 #include "client_renderer/surface_resolve.h"
+#include "core/task_pool.h"
 
 namespace lw {
 
@@ -88,6 +90,12 @@ void copy_into(const ColourImage& tile, glm::ivec2 first_px, ColourImage& colour
     }
 }
 
+// More would be idle: what is culled takes a millisecond.
+int threads_of(const CullingSettings& settings) {
+    if (settings.threads > 0) return settings.threads;
+    return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 2);
+}
+
 class DeferredSceneRenderer final : public SceneRenderer {
 public:
     DeferredSceneRenderer(const scene::Scene& scene, SceneRendererSettings settings,
@@ -95,6 +103,7 @@ public:
                           SurfaceResolve resolve)
         : scene_{scene},
           settings_{settings},
+          threads_{threads_of(settings.culling)},
           state_{scene},
           gpu_scene_{std::move(gpu_scene)},
           gbuffer_{*gpu_scene_},
@@ -347,9 +356,8 @@ private:
         culling_->move();
         const std::span<const std::uint32_t> visible = in_part(drawn_as_meshes(culling_->visible(camera)), camera);
         ClusterUse clusters;
-        gpu_scene_->clusters().counters() = {};
         if (settings_.culling.skip && settings_.culling.clusters) {
-            clusters = {&gpu_scene_->clusters(), culling_->cluster_view(camera)};
+            clusters = {&gpu_scene_->clusters(), culling_->cluster_view(camera), &threads_};
         }
         draw_list_->build(visible, camera, gpu_scene_->parts(), clusters);
         if (settings_.clock != nullptr) counters_.culling += settings_.clock->now() - begin;
@@ -390,7 +398,7 @@ private:
         counters_.objects_between_samples += objects.between_samples;
         counters_.objects_drawn += draw_list_->objects_drawn();
         counters_.triangles_drawn += draw_list_->triangles_drawn();
-        const ClusterCounters& clusters = gpu_scene_->clusters().counters();
+        const ClusterCounters& clusters = draw_list_->cluster_counters();
         counters_.clusters_tested += clusters.tested;
         counters_.clusters_outside += clusters.outside;
         counters_.clusters_turned_away += clusters.turned_away;
@@ -417,6 +425,7 @@ private:
 
     const scene::Scene& scene_;
     SceneRendererSettings settings_;
+    TaskPool threads_;
     scene::SceneState state_;
     std::optional<PlacedInstances> placed_;
     std::optional<Culling> culling_;

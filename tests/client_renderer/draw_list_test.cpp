@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <glm/gtc/matrix_transform.hpp>
 #include <set>
 
 #include "client_renderer/culling.h"
+#include "core/task_pool.h"
+#include "scene/built_in.h"
 #include "tests/client_renderer/hand_made_scenes.h"
 
 namespace lw {
@@ -139,6 +142,48 @@ TEST_F(DrawListTest, ABufferSortsByStateWhatComesByDistance) {
         next += range.command_count;
     }
     EXPECT_EQ(next, sorted.commands().size());
+}
+
+bool same_command(const DrawCommand& a, const DrawCommand& b) {
+    return a.index_count == b.index_count && a.instance_count == b.instance_count && a.first_index == b.first_index &&
+           a.base_vertex == b.base_vertex && a.base_instance == b.base_instance;
+}
+
+TEST(DrawListThreads, AnyNumberOfThreadsListsTheSameClusters) {
+    auto city = scene::make_built_in("city", {{"buildings", 60.0}});
+    ASSERT_TRUE(city.ok());
+    Clusters clusters;
+    std::vector<std::vector<MeshPart>> batches(1);
+    for (std::size_t mesh = 0; mesh < city->meshes.size(); ++mesh) {
+        clusters.begin_mesh();
+        std::vector<std::uint32_t> indices = city->meshes[mesh].indices;
+        const ClusterRange range = clusters.add(city->meshes[mesh].vertices, indices, false);
+        batches[0].push_back({static_cast<int>(mesh), static_cast<std::uint32_t>(indices.size()), 0, 0, range});
+    }
+    clusters.finish();
+    scene::SceneState state{*city};
+    state.set_time(0.0);
+    const PlacedInstances placed{*city, state};
+    Culling culling{placed, {}};
+    Camera camera = test::plain_camera({256, 256});
+    TaskPool two{2};
+    TaskPool five{5};
+    DrawList alone{placed};
+    DrawList shared{placed};
+    for (int step = 0; step < 8; ++step) {
+        camera.world_from_eye = city->start_pose.value_or(Pose{});
+        camera.world_from_eye.orientation =
+            glm::angleAxis(0.8 * step, glm::dvec3{0.0, 1.0, 0.0}) * camera.world_from_eye.orientation;
+        const std::vector<std::uint32_t>& visible = culling.visible(camera);
+        alone.build(visible, camera, batches, {&clusters, culling.cluster_view(camera)});
+        EXPECT_GT(alone.cluster_counters().tested, 100U);
+        for (TaskPool* pool : {&two, &five}) {
+            shared.build(visible, camera, batches, {&clusters, culling.cluster_view(camera), pool});
+            EXPECT_TRUE(std::ranges::equal(shared.commands(), alone.commands(), same_command)) << step;
+            EXPECT_EQ(shared.cluster_counters().occluded, alone.cluster_counters().occluded);
+            EXPECT_EQ(shared.cluster_counters().turned_away, alone.cluster_counters().turned_away);
+        }
+    }
 }
 
 }  // namespace

@@ -144,6 +144,8 @@ void fly(const std::vector<Camera>& cameras, double client_hz, BillboardTrial& m
 
 }  // namespace
 
+const char* name_of(PairSchedule schedule) { return schedule == PairSchedule::angles ? "angles" : "error of warped"; }
+
 Status measure_likeness(const BillboardStage& stage, bool quick, BillboardBench& bench) {
     const Plan plan = plan_of(quick);
     auto meshes = stage.trial("meshes", {});

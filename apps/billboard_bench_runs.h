@@ -33,6 +33,8 @@ struct PathRun {
 
 /// What decides when flat and warped quads are drawn anew, the same objects in the same frames.
 enum class PairSchedule : std::uint8_t { angles, warped_error };
+/// As reports have it.
+[[nodiscard]] const char* name_of(PairSchedule schedule);
 
 /// Flat and warped quads with the same redraws, in the frames of a client of one rate. Likeness is to the meshes.
 struct LikenessPoint {

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/billboard_bench_report.h"
+#include "apps/billboard_bench_figures.h"
 
 namespace lw {
 namespace {

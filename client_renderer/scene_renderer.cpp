@@ -80,6 +80,7 @@ void download(const gl::Texture& colour, const gl::Texture& depth, GLenum depth_
     object_id.download(GL_RED_INTEGER, GL_UNSIGNED_SHORT, pixels.object_id.size_bytes(),
                        pixels.object_id.pixels().data());
     pixels.alpha_is_share = false;
+    pixels.quarters.resize({0, 0});
 }
 
 void copy_into(const ColourImage& tile, glm::ivec2 first_px, ColourImage& colour) {
@@ -258,6 +259,19 @@ private:
         return *resolved_;
     }
 
+    // Null where they would be more than a texture holds.
+    const QuarterTexture* quarters_of(glm::ivec2 size_px) {
+        GLint most_px = 0;
+        glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most_px);
+        if (2 * std::max(size_px.x, size_px.y) > most_px) return nullptr;
+        if (!quarters_ || quarters_->colour.size_px() != 2 * size_px) {
+            auto made = QuarterTexture::create(size_px);
+            LW_CHECK(made.ok(), made.error().message());
+            quarters_ = std::move(*made);
+        }
+        return &*quarters_;
+    }
+
     // Before the tiles of a picture are drawn: billboards are chosen and updated once for all of them.
     void begin_picture(const Camera& camera, double scene_time_s, int samples_per_axis) {
         counters_ = {};
@@ -276,9 +290,14 @@ private:
             download(targets.colour, targets.depth, GL_DEPTH_COMPONENT, targets.object_id, pixels);
             return;
         }
-        resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px));
+        const QuarterTexture* quarters = quarters_of(camera.size_px);
+        resolve(camera, scene_time_s, samples_per_axis, resolved_of(camera.size_px), quarters);
         download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
         pixels.alpha_is_share = true;
+        if (quarters == nullptr) return;
+        pixels.quarters.resize(quarters->colour.size_px());
+        quarters->colour.download(GL_RGBA, GL_UNSIGNED_BYTE, pixels.quarters.size_bytes(),
+                                  pixels.quarters.pixels().data());
     }
 
     /// Runs `stage` and adds its time to `ms` where stages are timed.
@@ -314,11 +333,14 @@ private:
         return std::move(*made);
     }
 
-    void resolve(const Camera& camera, double scene_time_s, int samples_per_axis, const LayerTextures& layer) {
+    void resolve(const Camera& camera, double scene_time_s, int samples_per_axis, const LayerTextures& layer,
+                 const QuarterTexture* quarters = nullptr) {
         const glm::ivec2 tile_px = tile_size_px(camera.size_px, samples_per_axis);
         for_each_tile(camera, samples_per_axis, tile_px, [&](const Camera& part, glm::ivec2 first_px) {
             tile_first_px_ = first_px;
-            resolve_.draw(render(part, scene_time_s), samples_per_axis, first_px, layer);
+            const RenderTargets& samples = render(part, scene_time_s);
+            resolve_.draw(samples, samples_per_axis, first_px, layer);
+            if (quarters != nullptr) resolve_.draw_quarters(samples, samples_per_axis, first_px, *quarters);
         });
     }
 
@@ -436,7 +458,8 @@ private:
     LightingPass lighting_;
     ImagePasses images_;
     SurfaceResolve resolve_;
-    std::optional<LayerTextures> resolved_;  ///< of the last size drawn with several samples
+    std::optional<LayerTextures> resolved_;   ///< of the last size drawn with several samples
+    std::optional<QuarterTexture> quarters_;  ///< likewise
     LightTiles lights_;
     SkyParts sky_;
     gl::Buffer frame_block_;

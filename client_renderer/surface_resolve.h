@@ -1,6 +1,8 @@
 #pragma once
 /// Antialiasing that the warp can move: NxN samples become one pixel of one surface.
 
+#include <string>
+
 #include "client_renderer/render_targets.h"
 #include "core/result.h"
 #include "gl/framebuffer.h"
@@ -19,6 +21,15 @@ struct LayerTextures {
     [[nodiscard]] static Result<LayerTextures> create(glm::ivec2 size_px);
 };
 
+/// What it may fill besides: the quarters of those pixels (CpuPixels::quarters).
+struct QuarterTexture {
+    gl::Texture colour;  ///< SRGB8_ALPHA8, holds encoded values, twice the layer's size
+    gl::Framebuffer framebuffer;
+
+    /// Both sides of `layer_size_px` >= 1, and twice them no more than the driver's largest texture.
+    [[nodiscard]] static Result<QuarterTexture> create(glm::ivec2 layer_size_px);
+};
+
 /// Per pixel the samples are sorted by depth, and the surface of the median one shows: the samples of its object that
 /// lie near its plane (shaders/client/resolve_surface.frag). Colour is their mean in linear light, depth that of their
 /// plane at the pixel's centre. Background is a surface like others. Belongs to one GL context and its thread.
@@ -30,18 +41,29 @@ public:
     /// cut off.
     /// @param samples_per_axis  2 or 4; divides the size of `samples`
     void draw(const RenderTargets& samples, int samples_per_axis, glm::ivec2 first_px, const LayerTextures& layer);
+    /// The same for what the pixels' surfaces show in their quarters; `first_px` as for the layer.
+    void draw_quarters(const RenderTargets& samples, int samples_per_axis, glm::ivec2 first_px,
+                       const QuarterTexture& quarters);
 
 private:
     struct Variant {
         gl::Program program;
         GLint first_px = -1;  ///< uniform
     };
+    /// For one number of samples per axis.
+    struct Variants {
+        Variant pixels;
+        Variant quarters;
+    };
 
     SurfaceResolve() = default;
-    [[nodiscard]] static Result<Variant> make_variant(int samples_per_axis);
+    [[nodiscard]] static Result<Variant> make_variant(const std::string& defines);
+    [[nodiscard]] static Result<Variants> make_variants(int samples_per_axis);
+    [[nodiscard]] const Variants& variants(int samples_per_axis) const;
+    void draw(const Variant& variant, const RenderTargets& samples, glm::ivec2 first_px);
 
-    Variant two_;
-    Variant four_;
+    Variants two_;
+    Variants four_;
     gl::VertexArray no_attributes_;
 };
 

@@ -179,6 +179,14 @@ bool read_alpha(Fields& fields) {
     return alpha == "surface_share";
 }
 
+// "surface": there is an image of them.
+bool read_quarters(Fields& fields) {
+    if (!fields.has("quarters")) return false;
+    const std::string quarters = fields.text("quarters");
+    if (quarters != "surface" && quarters != "none") fields.fail("quarters is neither surface nor none");
+    return quarters == "surface";
+}
+
 LayerDescription read_layer(Fields fields, std::optional<Error>& error, std::vector<std::string>& warnings) {
     LayerDescription layer;
     layer.name = fields.text("name");
@@ -186,6 +194,7 @@ LayerDescription read_layer(Fields fields, std::optional<Error>& error, std::vec
     layer.camera = read_camera(fields, error, warnings);
     layer.depth_encoding = read_depth_encoding(fields);
     layer.alpha_is_share = read_alpha(fields);
+    layer.has_quarters = read_quarters(fields);
     layer.time_s = fields.number_or("time_s", 0.0);
     layer.pose_sampled_s = fields.number_or("pose_sampled_s", 0.0);
     if (std::abs(layer.pose_sampled_s) > 9e9) fields.fail("pose_sampled_s is beyond 9e9");
@@ -241,8 +250,9 @@ void append_layer(std::string& text, const Layer& layer) {
     append_numbers(text, orientation_xyzw, 4);
     fmt::format_to(
         std::back_inserter(text),
-        "}},\n      \"depth_encoding\": \"reverse_z\",\n{}      \"time_s\": {},\n      \"pose_sampled_s\": {},\n",
-        layer.cpu().alpha_is_share ? "      \"alpha\": \"surface_share\",\n" : "", layer.scene_time_s,
+        "}},\n      \"depth_encoding\": \"reverse_z\",\n{}{}      \"time_s\": {},\n      \"pose_sampled_s\": {},\n",
+        layer.cpu().alpha_is_share ? "      \"alpha\": \"surface_share\",\n" : "",
+        layer.cpu().quarters.empty() ? "" : "      \"quarters\": \"surface\",\n", layer.scene_time_s,
         seconds_of(layer.pose_sampled));
     append_objects(text, layer.movers);
     text += "    }";

@@ -22,6 +22,7 @@ struct LayerDescription {
     std::string name;
     Camera camera;
     bool alpha_is_share = false;  ///< CpuPixels::alpha_is_share
+    bool has_quarters = false;    ///< CpuPixels::quarters lie in a file of their own
     DepthEncoding depth_encoding = DepthEncoding::kReverseZ;
     double time_s = 0.0;          ///< scene time of the movers
     double pose_sampled_s = 0.0;  ///< stamp of the pose sample, seconds since the clock's zero

@@ -23,11 +23,12 @@ constexpr std::uint64_t kMaxDescriptionBytes = std::uint64_t{64} << 20;  // 6553
 constexpr std::int64_t kMaxPixels = std::int64_t{16384} * 16384;
 
 struct LayerFiles {
-    fs::path colour, depth, object_id;
+    fs::path colour, depth, object_id, quarters;
 };
 
 LayerFiles files_of(const fs::path& folder, const std::string& layer) {
-    return {folder / (layer + ".color.png"), folder / (layer + ".depth.pfm"), folder / (layer + ".id.png")};
+    return {folder / (layer + ".color.png"), folder / (layer + ".depth.pfm"), folder / (layer + ".id.png"),
+            folder / (layer + ".quarters.png")};
 }
 
 std::string size_text(glm::ivec2 size_px) { return fmt::format("{}x{}", size_px.x, size_px.y); }
@@ -37,11 +38,10 @@ std::string_view as_text(const std::vector<std::uint8_t>& bytes) {
 }
 
 template <class T>
-Status check_size(const Image<T>& image, const Camera& camera, const fs::path& file) {
-    if (image.size_px() == camera.size_px) return Done{};
-    return Error{
-        fmt::format("the image is {} and frame.json says {}", size_text(image.size_px()), size_text(camera.size_px)),
-        file.string(), "make both equal"};
+Status check_size(const Image<T>& image, glm::ivec2 size_px, const fs::path& file) {
+    if (image.size_px() == size_px) return Done{};
+    return Error{fmt::format("the image is {} and frame.json says {}", size_text(image.size_px()), size_text(size_px)),
+                 file.string(), "make both equal"};
 }
 
 // A distance that is none becomes NaN, which every warp method counts and skips.
@@ -85,15 +85,23 @@ Result<CpuPixels> load_pixels(const LayerDescription& description, const LayerFi
     if (!depth) return depth.error();
     auto object_id = read_png16(files.object_id);
     if (!object_id) return object_id.error();
-    for (const Status& status :
-         {check_size(*colour, description.camera, files.colour), check_size(*depth, description.camera, files.depth),
-          check_size(*object_id, description.camera, files.object_id)}) {
+    for (const Status& status : {check_size(*colour, description.camera.size_px, files.colour),
+                                 check_size(*depth, description.camera.size_px, files.depth),
+                                 check_size(*object_id, description.camera.size_px, files.object_id)}) {
         if (!status) return status.error();
     }
     if (description.depth_encoding == DepthEncoding::kDistanceM) {
         convert_from_distance(*depth, description.camera.near_m);
     }
-    return CpuPixels{std::move(*colour), std::move(*depth), std::move(*object_id), description.alpha_is_share};
+    CpuPixels pixels{std::move(*colour), std::move(*depth), std::move(*object_id), description.alpha_is_share};
+    if (!description.has_quarters) return pixels;
+    auto quarters = read_png(files.quarters);
+    if (!quarters) return quarters.error();
+    if (auto status = check_size(*quarters, 2 * description.camera.size_px, files.quarters); !status) {
+        return status.error();
+    }
+    pixels.quarters = std::move(*quarters);
+    return pixels;
 }
 
 Status check_total_size(const FrameDescription& description, const fs::path& file) {
@@ -135,6 +143,9 @@ Status check_savable(const RenderedFrame& frame, const fs::path& folder) {
             pixels.object_id.size_px() != size_px) {
             return refuse(fmt::format("the images of layer {} are not all {}", layer->name, size_text(size_px)));
         }
+        if (!pixels.quarters.empty() && pixels.quarters.size_px() != 2 * size_px) {
+            return refuse(fmt::format("the quarters of layer {} are not {}", layer->name, size_text(2 * size_px)));
+        }
     }
     return Done{};
 }
@@ -142,7 +153,9 @@ Status check_savable(const RenderedFrame& frame, const fs::path& folder) {
 Status save_pixels(const Layer& layer, const LayerFiles& files) {
     if (auto status = write_png(files.colour, layer.cpu().colour); !status) return status;
     if (auto status = write_pfm(files.depth, layer.cpu().depth); !status) return status;
-    return write_png16(files.object_id, layer.cpu().object_id);
+    if (auto status = write_png16(files.object_id, layer.cpu().object_id); !status) return status;
+    if (layer.cpu().quarters.empty()) return Done{};
+    return write_png(files.quarters, layer.cpu().quarters);
 }
 
 Status save_files(const RenderedFrame& frame, const fs::path& folder) {
@@ -157,7 +170,8 @@ void remove_files(const RenderedFrame& frame, const fs::path& folder) {
     std::error_code ignored;
     for (const auto& layer : frame.layers) {
         const LayerFiles files = files_of(folder, layer->name);
-        for (const fs::path& file : {files.colour, files.depth, files.object_id}) fs::remove(file, ignored);
+        for (const fs::path& file : {files.colour, files.depth, files.object_id, files.quarters})
+            fs::remove(file, ignored);
     }
 }
 

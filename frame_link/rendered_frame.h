@@ -25,7 +25,8 @@ namespace lw {
 /// no depth, so every warp method passes over it.
 inline constexpr float kNoSurfaceDepth = -1.0F;
 
-/// Pixels in CPU memory, all of the layer's size. How frames travel on a software GL, and from renderers without GL.
+/// Pixels in CPU memory, of the layer's size where nothing else is said. How frames travel on a software GL, and from
+/// renderers without GL.
 struct CpuPixels {
     ColourImage colour;       ///< sRGB
     DepthImage depth;         ///< reversed infinite depth, near_m / distance_m; 0 = background
@@ -33,6 +34,10 @@ struct CpuPixels {
     /// True: the colour's alpha is the share of the pixel that its surface covers, 255 = all of it; what is next to it
     /// has the rest. So a warp knows where in a pixel an edge runs. False: alpha says nothing.
     bool alpha_is_share = false;
+    /// Empty, or twice the layer's size in each direction: the four quarters of every pixel, each in the colour that
+    /// the pixel's own surface has there (sRGB; alpha says nothing). `colour` is their mean, as far as the surface
+    /// reaches. A warp that reads between two pixels finds there what their means no longer tell.
+    ColourImage quarters{};
 };
 
 /// Pixels in textures of a context that shares with the server's: SRGB8_ALPHA8, R32F and R16UI, row 0 on top.

@@ -1,17 +1,16 @@
 #!/usr/bin/env python3
 """Tables of docs/warp-methods.md from reports of `latewarp replay`.
 
-warp_methods_tables.py REPORT.json ... DOC.md: one report per scene and trace; replaces what stands between the markers
-<!-- table begin --> and <!-- table end -->, or prints the tables where there are none. The reports all have the same
-methods.
+warp_methods_tables.py [--ratios] REPORT.json ... DOC.md: one report per scene and trace; replaces what stands between
+the markers <!-- table begin --> and <!-- table end -->, or prints the tables where there are none. The reports all have
+the same methods. With --ratios, reports of several source and truth samples, and the markers <!-- ratios begin --> and
+<!-- ratios end -->.
 """
 
 import json
 import pathlib
 import sys
 
-BEGIN = "<!-- table begin -->"
-END = "<!-- table end -->"
 CAUSES = ("resampled", "disoccluded", "out_of_frame", "stale_shading")
 
 
@@ -109,8 +108,28 @@ def description(reports):
     )
 
 
-def main():
-    reports = [json.loads(pathlib.Path(path).read_text()) for path in sys.argv[1:-1]]
+def ratios_table(reports):
+    lines = ["| source, truth | `fresh-same` | `fresh` | `rotation` | `surface` | of `rotation`'s | of `fresh`'s "
+             "| latency's, of `rotation`'s | PSNR above `rotation`, dB |"]
+    lines.append("|---" * 9 + "|")
+    samples = sorted({(r["settings"]["source_samples"], r["settings"]["truth_samples"]) for r in reports})
+    for source, truth in samples:
+        group = [
+            report for report in reports
+            if (report["settings"]["source_samples"], report["settings"]["truth_samples"]) == (source, truth)
+        ]
+        flip = {m: figure(group, m, "flip", "mean") for m in ("fresh-same", "fresh", "rotation", "surface")}
+        latency = {m: flip[m] - flip["fresh-same"] for m in ("rotation", "surface")}
+        psnr = figure(group, "surface", "psnr_db", "mean") - figure(group, "rotation", "psnr_db", "mean")
+        lines.append(
+            f"| {source}x{source}, {truth}x{truth} | " + " | ".join(text(value, 4) for value in flip.values())
+            + f" | {text(flip['surface'] / flip['rotation'], 2)} | {text(flip['surface'] / flip['fresh'], 2)} "
+            f"| {text(latency['surface'] / latency['rotation'], 2)} | {text(psnr, 1)} |"
+        )
+    return lines
+
+
+def tables(reports):
     parts = [
         [description(reports)],
         summary_table(reports),
@@ -119,12 +138,21 @@ def main():
         ["Mean FLIP of each run:"],
         table_by_run(reports),
     ]
-    result = "\n\n".join("\n".join(part) for part in parts) + "\n"
+    return "\n\n".join("\n".join(part) for part in parts) + "\n"
+
+
+def main():
+    wants_ratios = sys.argv[1] == "--ratios"
+    paths = sys.argv[2 if wants_ratios else 1 : -1]
+    reports = [json.loads(pathlib.Path(path).read_text()) for path in paths]
+    result = "\n".join(ratios_table(reports)) + "\n" if wants_ratios else tables(reports)
+    name = "ratios" if wants_ratios else "table"
+    first, last = f"<!-- {name} begin -->", f"<!-- {name} end -->"
     document = pathlib.Path(sys.argv[-1])
-    before, begin, rest = (document.read_text() if document.exists() else "").partition(BEGIN)
-    _, end, after = rest.partition(END)
+    before, begin, rest = (document.read_text() if document.exists() else "").partition(first)
+    _, end, after = rest.partition(last)
     if begin and end:
-        document.write_text(f"{before}{BEGIN}\n{result}{END}{after}")
+        document.write_text(f"{before}{first}\n{result}{last}{after}")
     else:
         print(result, end="")
 

@@ -1,7 +1,7 @@
 #version 450 core
 // One pixel from SAMPLES x SAMPLES samples, all of one surface: that of the sample with the median depth. A mean over
 // several surfaces would travel with a depth that none of them has, as a halo. Alpha is the share of the samples that
-// are on it.
+// are on it. With QUARTERS it draws instead, at twice the size, what the same surface shows in each quarter of the pixel.
 #include "client_blocks.h"
 #include "client/srgb.glsl"
 
@@ -11,8 +11,10 @@ layout(binding = kUnitSampleId) uniform usampler2D u_object_id;
 uniform ivec2 u_first_px;  // pixel of the layer that the first samples belong to
 
 layout(location = 0) out vec4 o_colour;
+#ifndef QUARTERS
 layout(location = 1) out float o_depth;
 layout(location = 2) out uint o_object_id;
+#endif
 
 const int kSamples = SAMPLES * SAMPLES;
 // Of the depth: what lies this close to a sample's plane is on its surface. At 1 m that is 1 cm: less than what shows
@@ -75,7 +77,14 @@ float slope(ivec2 place, ivec2 step, float depth, uint id) {
 }
 
 void main() {
+#ifdef QUARTERS
+    ivec2 quarter = ivec2(gl_FragCoord.xy) & 1;
+    vec3 quarter_colour = vec3(0.0);
+    float quarter_count = 0.0;
+    ivec2 first = ((ivec2(gl_FragCoord.xy) >> 1) - u_first_px) * SAMPLES;
+#else
     ivec2 first = (ivec2(gl_FragCoord.xy) - u_first_px) * SAMPLES;
+#endif
     float nearest = 0.0;
     float farthest = 2.0;
     bool one_object = true;
@@ -110,11 +119,23 @@ void main() {
         bool on_surface = ids[i] == ids[median] && (depths[i] > 0.0) == (depths[median] > 0.0) &&
                           abs(difference) <= kSameSurface * depths[median];
         if (one_surface || on_surface) {
-            colour += texelFetch(u_colour, sample_of(first, i), 0).rgb;
+            vec3 sample_colour = texelFetch(u_colour, sample_of(first, i), 0).rgb;
+            colour += sample_colour;
+#ifdef QUARTERS
+            if (sample_of(ivec2(0), i) / (SAMPLES / 2) == quarter) {
+                quarter_colour += sample_colour;
+                quarter_count += 1.0;
+            }
+#endif
             off_plane += difference;
             count += 1.0;
         }
     }
+#ifdef QUARTERS
+    // Where the surface has none of the quarter's samples, nobody will look for more than its mean.
+    vec3 shown = quarter_count > 0.0 ? quarter_colour / quarter_count : colour / count;
+    o_colour = vec4(srgb_from_linear(shown), 1.0);
+#else
     // The mean plane at the pixel's centre, wherever the samples on it lie: depth stays affine on planes.
     vec2 to_centre = 0.5 * float(SAMPLES - 1) - vec2(sample_of(ivec2(0), median));
     float depth = depths[median] + off_plane / count + dot(gradient, to_centre);
@@ -123,4 +144,5 @@ void main() {
     o_colour = vec4(srgb_from_linear(colour / count), count / float(kSamples));
     o_depth = depth;
     o_object_id = ids[median];
+#endif
 }

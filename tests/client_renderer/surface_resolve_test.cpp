@@ -102,6 +102,50 @@ TEST_F(GlSurfaceResolve, APlanesDepthIsThatOfThePixelsCentreUpToItsEdges) {
     }
 }
 
+TEST_F(GlSurfaceResolve, QuartersShowThePixelsOwnSurface) {
+    const scene::Scene scene = red_before_green();
+    auto renderer = make(scene);
+    const Camera camera = test::plain_camera({64, 48});
+    EXPECT_TRUE(draw(*renderer, camera, 1).quarters.empty());
+    for (const int samples : {2, 4}) {
+        const CpuPixels pixels = draw(*renderer, camera, samples);
+        ASSERT_EQ(pixels.quarters.size_px(), glm::ivec2(128, 96)) << samples;
+        for (int y = 0; y < 96; ++y) {
+            for (int x = 0; x < 128; ++x) {
+                ASSERT_EQ(opaque(pixels.quarters.at(x, y)), opaque(pixels.colour.at(x / 2, y / 2)))
+                    << samples << ": " << x << " " << y;
+            }
+        }
+    }
+}
+
+TEST_F(GlSurfaceResolve, ThePixelIsTheMeanOfItsQuarters) {
+    // A floor with lights and shades: one surface, so that every quarter has all of its samples.
+    scene::Scene scene;
+    scene.materials = {test::unlit_material({1, 1, 1, 1})};
+    scene.materials.front() = {};
+    scene.meshes = {test::square_mesh(0)};
+    auto wall = glm::translate(glm::dmat4{1.0}, {0.0, 0.0, -2.0});
+    wall = glm::rotate(wall, 0.7, {0.0, 1.0, 0.0});
+    test::add_instance(scene, 0, glm::scale(wall, {20.0, 20.0, 1.0}));
+    scene.finish();
+    auto renderer = make(scene);
+    const Camera camera = test::plain_camera({32, 24});
+    for (const int samples : {2, 4}) {
+        const CpuPixels pixels = draw(*renderer, camera, samples);
+        for (int y = 0; y < 24; ++y) {
+            for (int x = 0; x < 32; ++x) {
+                float mean = 0.0F;
+                for (int i = 0; i < 4; ++i) {
+                    mean += 0.25F * linear_of(pixels.quarters.at(2 * x + i % 2, 2 * y + i / 2)).g;
+                }
+                // Each quarter is rounded by itself: half a level each.
+                ASSERT_NEAR(srgb8_from_linear(mean), pixels.colour.at(x, y).g, 1) << samples << ": " << x << " " << y;
+            }
+        }
+    }
+}
+
 TEST_F(GlSurfaceResolve, AlphaIsTheShareThatTheSurfaceCovers) {
     // The square's left edge stands upright in column 5: a quarter of that column's pixels is the square's.
     scene::Scene scene;

@@ -84,6 +84,24 @@ TEST_P(VectorMethod, EveryInstructionSetGivesTheSameBytes) {
     }
 }
 
+TEST(SurfaceMethod, EveryInstructionSetReadsQuartersTheSame) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const std::vector<ObjectTransform> movers = scene.movers(0.1);
+    const Camera source = street_camera({131, 67});
+    const Camera target = moved(source, {0.05, 0.01, -0.06}, 3.0, 1.0, 2.0);
+    Layer layer = scene.draw(source, 0.0);
+    Camera twice = source;
+    twice.size_px *= 2;
+    layer.cpu().quarters = scene.draw(twice, 0.0).cpu().colour;
+    const DisplayFrame best = warp_once("surface", layer, {target, movers});
+    InstructionSets sets;
+    for (const std::int64_t set : sets.all()) {
+        InstructionSets::use(set);
+        EXPECT_TRUE(same_pixels(warp_once("surface", layer, {target, movers}), best)) << hwy::TargetName(set);
+    }
+    hwy::SetSupportedTargetsForTest(0);
+}
+
 TEST_P(VectorMethod, AnyNumberOfThreadsGivesTheSameBytes) {
     const AnalyticScene scene = AnalyticScene::street();
     const std::vector<ObjectTransform> movers = scene.movers(0.1);

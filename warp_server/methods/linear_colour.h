@@ -33,6 +33,13 @@ public:
     [[nodiscard]] std::ptrdiff_t channel_stride() const { return channel_stride_; }
     [[nodiscard]] std::ptrdiff_t row_stride() const { return channels_ * channel_stride_; }
     [[nodiscard]] bool has_alpha() const { return channels_ == 4; }
+    /// Of channel 0 (red), 1 or 2.
+    [[nodiscard]] std::uint16_t* row(int y, int channel) {
+        return values_.get() + y * row_stride() + channel * channel_stride_;
+    }
+    [[nodiscard]] const std::uint16_t* row(int y, int channel) const {
+        return values_.get() + y * row_stride() + channel * channel_stride_;
+    }
     /// Of images that have one.
     [[nodiscard]] std::uint16_t* alpha_row(int y) { return values_.get() + y * row_stride() + 3 * channel_stride_; }
     /// Red of the first pixel.

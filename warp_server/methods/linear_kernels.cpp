@@ -101,6 +101,42 @@ void linearise_here(const ColourImage& image, const std::array<std::uint16_t, 25
     }
 }
 
+std::uint16_t rounded_mean(unsigned a, unsigned b) { return static_cast<std::uint16_t>((a + b + 1U) / 2U); }
+
+// As many columns as fill vectors, but for the last one; returns how many.
+std::size_t average_many(std::uint16_t* row, const std::uint16_t* below, std::size_t count,
+                         const std::uint16_t* pixels) {
+#if HWY_TARGET == HWY_SCALAR
+    static_cast<void>(row), static_cast<void>(below), static_cast<void>(count), static_cast<void>(pixels);
+    return 0;
+#else
+    const hn::ScalableTag<std::uint16_t> d;
+    const hn::RepartitionToWide<decltype(d)> pair;
+    const hn::Rebind<std::uint16_t, decltype(pair)> half;
+    const std::size_t lanes = hn::Lanes(d);
+    std::size_t x = 0;
+    for (; x + lanes < count; x += lanes) {
+        const auto left = hn::AverageRound(hn::LoadU(d, row + x), hn::LoadU(d, below + x));
+        const auto right = hn::AverageRound(hn::LoadU(d, row + x + 1), hn::LoadU(d, below + x + 1));
+        auto mean = hn::AverageRound(left, right);
+        if (pixels != nullptr) {
+            mean = hn::OddEven(mean, hn::BitCast(d, hn::PromoteTo(pair, hn::LoadU(half, pixels + x / 2))));
+        }
+        hn::StoreU(mean, d, row + x);
+    }
+    return x;
+#endif
+}
+
+void average_quarters_here(std::uint16_t* row, const std::uint16_t* below, std::size_t count,
+                           const std::uint16_t* pixels) {
+    for (std::size_t x = average_many(row, below, count, pixels); x < count; ++x) {
+        const std::size_t right = std::min(x + 1, count - 1);
+        const std::uint16_t mean = rounded_mean(rounded_mean(row[x], below[x]), rounded_mean(row[right], below[right]));
+        row[x] = pixels != nullptr && x % 2 == 0 ? pixels[x / 2] : mean;
+    }
+}
+
 }  // namespace
 }  // namespace lw::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -109,10 +145,15 @@ HWY_AFTER_NAMESPACE();
 namespace lw {
 
 HWY_EXPORT(linearise_here);
+HWY_EXPORT(average_quarters_here);
 
 void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, LinearAlpha alpha,
                LinearRows out) {
     HWY_DYNAMIC_DISPATCH(linearise_here)(image, linear, alpha, out);
+}
+
+void average_quarters(std::uint16_t* row, const std::uint16_t* below, std::size_t count, const std::uint16_t* pixels) {
+    HWY_DYNAMIC_DISPATCH(average_quarters_here)(row, below, count, pixels);
 }
 
 }  // namespace lw

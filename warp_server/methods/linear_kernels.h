@@ -22,4 +22,10 @@ struct LinearRows {
 void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, LinearAlpha alpha,
                LinearRows out);
 
+/// In place, means of 2x2 values: of columns x and x + 1 of `row` and of the row `below` it, a mean of two means, each
+/// rounded up. The last column counts twice. Where `pixels` is not null, every second value from the first on becomes
+/// the next of `pixels` instead. Any thread.
+/// @param count  of columns: at least 1, even
+void average_quarters(std::uint16_t* row, const std::uint16_t* below, std::size_t count, const std::uint16_t* pixels);
+
 }  // namespace lw

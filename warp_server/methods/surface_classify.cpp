@@ -8,6 +8,7 @@
 
 #include "core/colour.h"
 #include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_links.h"
 #include "warp_server/methods/surface_shares.h"
 #include "warp_server/methods/surface_tiles.h"
@@ -294,6 +295,9 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     PatchBuilder{links, *prepared}.build();
     if (use == SurfaceUse::cpu_kernels) {
         prepared->linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
+        if (pixels.quarters.size_px() == kLatticeSteps * prepared->size_px) {
+            prepared->lattice = lattice_between(prepared->linear, pixels.quarters);
+        }
         if (prepared->linear.has_alpha()) halve_lacks_of_thin_things(links, prepared->linear);
     }
     prepared->id_counts = count_ids(pixels);

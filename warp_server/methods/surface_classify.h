@@ -70,6 +70,7 @@ struct PreparedSurface final : PreparedLayer {
     PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
     std::vector<SurfaceRegion> regions;  ///< in the order of the lists: each begins where the one before ends
     std::vector<RegionBounds> bounds;    ///< of each
+    LinearImage lattice;                 ///< with colours between pixels (lattice_between), or empty
     LinearImage linear;                  ///< with the pixels' shares as alpha, where they are known
     std::vector<IdCount> id_counts;      ///< by ascending id
     std::vector<float> cost_until;       ///< estimated cost of drawing all patches before each source row, and of all

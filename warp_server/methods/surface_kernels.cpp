@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "warp_server/methods/lanes.h"
+#include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_placing.h"
 #include "warp_server/methods/surface_queues.h"
 #include "warp_server/methods/surface_sampling.h"
@@ -74,10 +75,11 @@ public:
     Painter(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind)
         : input_{input},
           behind_{behind},
-          reader_{input.prepared->linear},
+          corner_reader_{input.prepared->linear},
+          reader_{has_lattice(input) ? ColourReader{input.prepared->lattice, kLatticeSteps} : corner_reader_},
           runs_{reader_, encoder_, canvas.frame()},
           queue_{reader_, encoder_, runs_, canvas.frame()},
-          fragments_{reader_, input.prepared->size_px, canvas},
+          fragments_{corner_reader_, input.prepared->size_px, canvas},
           target_width_{canvas.frame().depth.width()},
           band_{target_width_, canvas.frame().depth.height(), canvas.band()},
           skips_{canvas.skips()},
@@ -122,6 +124,8 @@ public:
 
 private:
     static constexpr std::size_t kPatchesAhead = 64;
+
+    [[nodiscard]] static bool has_lattice(const PatchInput& input) { return input.prepared->lattice.size_px().x > 0; }
 
     // As many patches at once as there are lanes; `paint` gets those that have pixels here, object by object.
     template <class Paint>
@@ -412,6 +416,7 @@ private:
 
     const PatchInput& input_;
     std::vector<std::uint32_t>& behind_;
+    ColourReader corner_reader_;  // where surfaces meet: of pixels alone
     ColourReader reader_;
     ColourEncoder encoder_;
     RunQueue runs_;

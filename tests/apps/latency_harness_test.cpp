@@ -198,7 +198,8 @@ TEST(MostCommonDelay, IsWhereMostIntervalsOverlap) {
 TEST(LatencyPage, HoldsTheTimeLineAndTheHistograms) {
     const LiveResult result = simulate({}, 10.0);
     const std::string page = latency_page(Options{}, result, latency_of(result));
-    for (const char* part : {"What each thread did when", "Motion to photon", "Frame age", "client draws", "display shows", "<svg"}) {
+    for (const char* part :
+         {"What each thread did when", "Motion to photon", "Frame age", "client draws", "display shows", "<svg"}) {
         EXPECT_THAT(page, testing::HasSubstr(part));
     }
     const SvgPlot histogram = histogram_of("h", "ms", {1.0, 1.0, 1.0, 2.0});

@@ -71,20 +71,21 @@ HWY_INLINE InFrustum against(const BoxVector& boxes, const FloatFrustum& frustum
 
 class Walk {
 public:
-    Walk(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters)
+    Walk(const BoxTree& tree, const WalkQuery& query, WalkPart& part)
         : order_{tree.bvh().order()},
           wide_{tree.wide()},
           query_{query},
-          seen_{seen},
-          counters_{counters},
-          open_{tree.open()} {}
+          seen_{part.seen},
+          counters_{part.counters},
+          open_{part.open},
+          next_{part.next} {}
 
-    void run() {
+    /// Until all nodes have been looked into, or `most_open` wait.
+    void run(std::size_t most_open) {
         // First come, first served: what is asked for when a node is found has come when its turn comes.
-        open_.assign(1, {wide_.root(), FloatFrustum::kAllPlanes});
         const auto lanes = static_cast<std::uint32_t>(hn::Lanes(DF{}));
-        for (std::size_t next = 0; next < open_.size(); ++next) {
-            const OpenNode entry = open_[next];
+        while (next_ < open_.size() && open_.size() - next_ < most_open) {
+            const OpenNode entry = open_[next_++];
             ++counters_.nodes;
             for (std::uint32_t i = 0; i < entry.node.slot_count; i += lanes) {
                 visit(entry.node.first + i, lowest_bits(std::min(lanes, entry.node.slot_count - i)), entry.planes);
@@ -163,10 +164,11 @@ private:
     std::vector<std::uint32_t>& seen_;
     WalkCounters& counters_;
     std::vector<OpenNode>& open_;
+    std::size_t& next_;
 };
 
-void walk_here(BoxTree& tree, const WalkQuery& query, std::vector<std::uint32_t>& seen, WalkCounters& counters) {
-    Walk{tree, query, seen, counters}.run();
+void walk_here(const BoxTree& tree, const WalkQuery& query, std::size_t most_open, WalkPart& part) {
+    Walk{tree, query, part}.run(most_open);
 }
 
 /// One byte per frustum: planes still to be tested, or kOutside.
@@ -272,6 +274,26 @@ namespace lw {
 HWY_EXPORT(walk_here);
 HWY_EXPORT(walk_several_here);
 
+namespace {
+
+// A walk by several threads begins with one, until there are this many parts for each, of this many nodes. Subtrees
+// differ in what is seen of them.
+constexpr std::size_t kPartsPerThread = 4;
+constexpr std::size_t kNodesPerPart = 16;
+constexpr std::size_t kAll = ~std::size_t{0};
+
+}  // namespace
+
+WalkCounters& WalkCounters::operator+=(const WalkCounters& other) {
+    nodes += other.nodes;
+    items += other.items;
+    items_outside += other.items_outside;
+    items_hidden += other.items_hidden;
+    items_too_small += other.items_too_small;
+    items_between_samples += other.items_between_samples;
+    return *this;
+}
+
 BoxTree::BoxTree(std::span<const scene::Bounds> boxes) : bvh_{boxes}, wide_{bvh_, boxes} {
     boxes_.resize(bvh_.order().size());
     for (std::size_t i = 0; i < bvh_.order().size(); ++i) boxes_.set(i, boxes[bvh_.order()[i]]);
@@ -286,10 +308,42 @@ void BoxTree::move(std::span<const std::uint32_t> moved, std::span<const scene::
     }
 }
 
-void BoxTree::append_seen(const WalkQuery& query, std::vector<std::uint32_t>& seen) {
+void BoxTree::append_seen(const WalkQuery& query, std::vector<std::uint32_t>& seen, TaskPool* threads) {
     counters_ = {};
     if (bvh_.empty()) return;
-    HWY_DYNAMIC_DISPATCH(walk_here)(*this, query, seen, counters_);
+    const std::size_t parts = threads == nullptr || threads->threads() == 1
+                                  ? 0
+                                  : kPartsPerThread * static_cast<std::size_t>(threads->threads());
+    begin_.open.assign(1, {wide_.root(), FloatFrustum::kAllPlanes});
+    begin_.next = 0;
+    begin_.counters = {};
+    begin_.seen.swap(seen);
+    HWY_DYNAMIC_DISPATCH(walk_here)(*this, query, parts == 0 ? kAll : kNodesPerPart * parts, begin_);
+    begin_.seen.swap(seen);
+    counters_ += begin_.counters;
+    if (begin_.next == begin_.open.size()) return;
+    share_out(parts);
+    threads->run(static_cast<int>(parts), [this, &query](int part, int /*worker*/) {
+        HWY_DYNAMIC_DISPATCH(walk_here)(*this, query, kAll, parts_[static_cast<std::size_t>(part)]);
+    });
+    for (const WalkPart& part : std::span{parts_}.first(parts)) {
+        seen.insert(seen.end(), part.seen.begin(), part.seen.end());
+        counters_ += part.counters;
+    }
+}
+
+void BoxTree::share_out(std::size_t parts) {
+    if (parts_.size() < parts) parts_.resize(parts);
+    const std::span<const OpenNode> left = std::span{begin_.open}.subspan(begin_.next);
+    for (std::size_t i = 0; i < parts; ++i) {
+        const std::size_t first = left.size() * i / parts;
+        const std::span<const OpenNode> nodes = left.subspan(first, left.size() * (i + 1) / parts - first);
+        WalkPart& part = parts_[i];
+        part.open.assign(nodes.begin(), nodes.end());
+        part.next = 0;
+        part.seen.clear();
+        part.counters = {};
+    }
 }
 
 void BoxTree::append_seen(std::span<const Frustum> frusta, std::vector<SeenItem>& seen) {

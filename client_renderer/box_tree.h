@@ -10,6 +10,7 @@
 #include "client_renderer/frustum.h"
 #include "client_renderer/occlusion_buffer.h"
 #include "client_renderer/wide_bvh.h"
+#include "core/task_pool.h"
 #include "scene/bvh.h"
 
 namespace lw {
@@ -28,6 +29,9 @@ struct WalkCounters {
     std::uint64_t items_hidden = 0;           ///< behind occluders, one by one or with their subtree
     std::uint64_t items_too_small = 0;        ///< below the pixel size asked for
     std::uint64_t items_between_samples = 0;  ///< too thin to meet a sample of the picture; only with occlusion
+
+    WalkCounters& operator+=(const WalkCounters& other);
+    friend bool operator==(const WalkCounters&, const WalkCounters&) = default;
 };
 
 /// What a view needs of the boxes.
@@ -45,6 +49,14 @@ struct OpenNode {
     unsigned planes = 0;
 };
 
+/// A walk, or one thread's part of it, from some nodes on. Nothing of it lies in a cache line of another.
+struct alignas(64) WalkPart {
+    std::vector<OpenNode> open;       ///< in the order in which they were found
+    std::size_t next = 0;             ///< of open, the first that was not looked into
+    std::vector<std::uint32_t> seen;  ///< items
+    WalkCounters counters;
+};
+
 /// Boxes in a hierarchy whose nodes have up to sixteen children, tested together on a wide vector. Plane masking: a
 /// plane that a node lies inside is not tested again below it; what lies inside all of them is taken without tests
 /// (seed 002, section 19.4). One thread at a time.
@@ -59,7 +71,8 @@ public:
 
     /// Appends the items that may be seen, in no particular order. As may_see(), it may keep one that is not in view or
     /// is hidden, never leave out one that is seen.
-    void append_seen(const WalkQuery& query, std::vector<std::uint32_t>& seen);
+    /// @param threads  that share the walk, for the same items and counters; null: the caller's alone
+    void append_seen(const WalkQuery& query, std::vector<std::uint32_t>& seen, TaskPool* threads = nullptr);
 
     /// The same for up to kMostFrusta frusta in one walk: both eyes, the faces of a cube. An item appears once.
     void append_seen(std::span<const Frustum> frusta, std::vector<SeenItem>& seen);
@@ -69,13 +82,15 @@ public:
     /// In the order of the hierarchy.
     [[nodiscard]] const BoxList& boxes() const { return boxes_; }
     [[nodiscard]] const WideBvh& wide() const { return wide_; }
-    /// A walk's own; keeps its memory.
-    [[nodiscard]] std::vector<OpenNode>& open() { return open_; }
 
 private:
+    /// Divides what is left of a walk among this many parts.
+    void share_out(std::size_t parts);
+
     scene::Bvh bvh_;
-    WideBvh wide_;  ///< for one view
-    std::vector<OpenNode> open_;
+    WideBvh wide_;    ///< for one view
+    WalkPart begin_;  ///< of a walk; the whole for one thread
+    std::vector<WalkPart> parts_;
     BoxList boxes_;  ///< for several
     WalkCounters counters_;
 };

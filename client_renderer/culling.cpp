@@ -6,8 +6,13 @@
 
 namespace lw {
 
-Culling::Culling(const PlacedInstances& placed, const CullingSettings& settings)
-    : placed_{placed}, settings_{settings}, portals_{placed}, marks_(placed.size() / 64 + 1, 0), occluders_{placed} {
+Culling::Culling(const PlacedInstances& placed, const CullingSettings& settings, TaskPool* threads)
+    : placed_{placed},
+      settings_{settings},
+      threads_{threads},
+      portals_{placed},
+      marks_(placed.size() / 64 + 1, 0),
+      occluders_{placed} {
     boxes_.resize(placed.size());
     for (std::size_t i = 0; i < placed.size(); ++i) boxes_.set(i, placed[i].bounds_world);
     if (placed.size() <= kListUpTo) return;
@@ -15,13 +20,32 @@ Culling::Culling(const PlacedInstances& placed, const CullingSettings& settings)
     tree_.emplace(bounds_);
 }
 
-void Culling::move() {
+// Neither task needs the other.
+void Culling::prepare(const Camera& camera) {
+    if (threads_ != nullptr && moved_ && settings_.occlusion) {
+        threads_->run(2,
+                      [this, &camera](int task, int /*worker*/) { task == 0 ? draw_occluders(camera) : move_boxes(); });
+    } else {
+        draw_occluders(camera);
+        move_boxes();
+    }
+    moved_ = false;
+}
+
+void Culling::move_boxes() {
+    if (!moved_) return;
     for (const std::uint32_t mover : placed_.movers()) {
         if (tree_) bounds_[mover] = placed_[mover].bounds_world;
         if (!tree_ || !portals_.empty()) boxes_.set(mover, placed_[mover].bounds_world);
     }
     if (tree_) tree_->move(placed_.movers(), bounds_);
-    occluders_.move(placed_);
+}
+
+void Culling::draw_occluders(const Camera& camera) {
+    buffer_.begin(camera);
+    if (!settings_.occlusion) return;
+    if (moved_) occluders_.move(placed_);
+    counters_.occluders = occluders_.draw(camera, settings_.reveal_margin_m, buffer_);
 }
 
 const std::vector<std::uint32_t>& Culling::visible(const Camera& camera) {
@@ -33,8 +57,7 @@ const std::vector<std::uint32_t>& Culling::visible(const Camera& camera) {
         std::iota(seen_.begin(), seen_.end(), 0U);
         return seen_;
     }
-    buffer_.begin(camera);
-    if (settings_.occlusion) counters_.occluders = occluders_.draw(camera, settings_.reveal_margin_m, buffer_);
+    prepare(camera);
     const bool with_occlusion = counters_.occluders > 0;
     in_view_.clear();
     if (settings_.portals && !portals_.empty() && portals_.append_seen(camera, settings_.reveal_margin_m, in_view_)) {
@@ -97,7 +120,7 @@ void Culling::walk_tree(const Camera& camera, bool with_occlusion) {
     for (int i = 0; i < 3; ++i) {
         query.eye_world[static_cast<std::size_t>(i)] = static_cast<float>(camera.world_from_eye.position_m[i]);
     }
-    tree_->append_seen(query, in_view_);
+    tree_->append_seen(query, in_view_, threads_);
     counters_.occluded = tree_->counters().items_hidden;
     counters_.too_small = tree_->counters().items_too_small;
     counters_.between_samples = tree_->counters().items_between_samples;

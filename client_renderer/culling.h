@@ -14,6 +14,7 @@
 #include "client_renderer/occlusion_buffer.h"
 #include "client_renderer/placed_instances.h"
 #include "client_renderer/portal_walk.h"
+#include "core/task_pool.h"
 
 namespace lw {
 
@@ -35,10 +36,11 @@ public:
     static constexpr std::size_t kListUpTo = 256;
 
     /// `placed` outlives this.
-    Culling(const PlacedInstances& placed, const CullingSettings& settings);
+    /// @param threads  that share the work, for the same result; null: the caller's alone. Outlives this
+    Culling(const PlacedInstances& placed, const CullingSettings& settings, TaskPool* threads = nullptr);
 
-    /// After `placed` moved.
-    void move();
+    /// After `placed` moved. The next view follows it, while its occluders are drawn.
+    void move() { moved_ = true; }
 
     /// From the next view on; metres, >= 0.
     void set_reveal_margin(double margin_m) { settings_.reveal_margin_m = margin_m; }
@@ -57,7 +59,12 @@ public:
 private:
     const PlacedInstances& placed_;
     CullingSettings settings_;
+    TaskPool* threads_;
     bool viewer_moves_ = false;
+    bool moved_ = false;  ///< since the last view
+    void prepare(const Camera& camera);
+    void move_boxes();
+    void draw_occluders(const Camera& camera);
     void walk_portals(const Camera& camera, bool with_occlusion);
     void put_in_order();
     void count(const OcclusionBuffer::Split& split);

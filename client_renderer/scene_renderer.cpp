@@ -114,7 +114,7 @@ public:
           frame_block_{gl::make_buffer(sizeof(shader::FrameBlock), nullptr, GL_DYNAMIC_STORAGE_BIT)} {
         state_.set_time(0.0);
         placed_.emplace(scene_, state_);
-        culling_.emplace(*placed_, settings_.culling);
+        culling_.emplace(*placed_, settings_.culling, &threads_);
         draw_list_.emplace(*placed_, settings_.order);
     }
 

@@ -165,5 +165,34 @@ TEST(BoxTree, HiddenSubtreesAreHiddenItemByItem) {
     EXPECT_GT(hidden_count, 100U);
 }
 
+TEST(BoxTree, AnyNumberOfThreadsSeesTheSame) {
+    std::mt19937 random{6};
+    const std::vector<scene::Bounds> boxes = random_boxes(random, 20000);
+    BoxTree tree{boxes};
+    TaskPool two{2};
+    TaskPool five{5};
+    for (int round = 0; round < 10; ++round) {
+        const Camera camera = random_camera(random);
+        OcclusionBuffer buffer;
+        buffer.begin(camera);
+        WalkQuery query;
+        query.frustum = rounded(frustum_of(camera));
+        query.occlusion = &buffer;
+        query.least_size_per_distance = 0.04F;
+        std::vector<std::uint32_t> alone{7};
+        tree.append_seen(query, alone);
+        const WalkCounters expected = tree.counters();
+        EXPECT_GT(expected.items_too_small, 0U);
+        std::ranges::sort(alone);
+        for (TaskPool* pool : {&two, &five}) {
+            std::vector<std::uint32_t> shared{7};  // it appends
+            tree.append_seen(query, shared, pool);
+            std::ranges::sort(shared);
+            EXPECT_EQ(shared, alone);
+            EXPECT_EQ(tree.counters(), expected);
+        }
+    }
+}
+
 }  // namespace
 }  // namespace lw

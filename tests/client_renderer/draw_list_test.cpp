@@ -186,5 +186,32 @@ TEST(DrawListThreads, AnyNumberOfThreadsListsTheSameClusters) {
     }
 }
 
+TEST(DrawListThreads, AnyNumberOfThreadsFindsTheSameObjects) {
+    auto city = scene::make_built_in("city", {{"buildings", 60.0}});
+    ASSERT_TRUE(city.ok());
+    scene::SceneState state{*city};
+    state.set_time(0.0);
+    PlacedInstances placed{*city, state};
+    TaskPool three{3};
+    Culling alone{placed, {}};
+    Culling shared{placed, {}, &three};
+    Camera camera = test::plain_camera({256, 256});
+    for (int step = 0; step < 8; ++step) {
+        camera.world_from_eye = city->start_pose.value_or(Pose{});
+        camera.world_from_eye.orientation =
+            glm::angleAxis(0.8 * step, glm::dvec3{0.0, 1.0, 0.0}) * camera.world_from_eye.orientation;
+        state.set_time(0.5 * step);
+        placed.move(state);
+        alone.move();
+        shared.move();
+        const std::vector<std::uint32_t>& expected = alone.visible(camera);
+        EXPECT_GT(alone.counters().occluders, 0U);
+        EXPECT_EQ(shared.visible(camera), expected) << step;
+        EXPECT_EQ(shared.counters().occluded, alone.counters().occluded);
+        EXPECT_EQ(shared.counters().outside, alone.counters().outside);
+        EXPECT_EQ(shared.counters().between_samples, alone.counters().between_samples);
+    }
+}
+
 }  // namespace
 }  // namespace lw

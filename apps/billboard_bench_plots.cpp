@@ -11,6 +11,7 @@ namespace {
 template <class Value>
 std::vector<double> column(const std::vector<TrialFrame>& frames, Value value) {
     std::vector<double> values;
+    values.reserve(frames.size());
     for (const TrialFrame& frame : frames) values.push_back(static_cast<double>(value(frame)));
     return values;
 }

@@ -45,8 +45,9 @@ ShellTiles::ShellTiles(const Camera& display, double density, int tiles_per_side
     display_pixels_ = px_per_tan * px_per_tan * side_tan * side_tan;
     for (const glm::dquat& orientation : face_orientations()) {
         for (int tile = 0; tile < tiles_per_side * tiles_per_side; ++tile) {
+            const int row = tile / tiles_per_side;
             const double left = -1.0 + side_tan * (tile % tiles_per_side);
-            const double up = 1.0 - side_tan * (tile / tiles_per_side);
+            const double up = 1.0 - side_tan * row;
             Camera camera;
             camera.world_from_eye.orientation = orientation;
             camera.near_m = display.near_m;

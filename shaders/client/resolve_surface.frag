@@ -100,6 +100,18 @@ void main() {
     int median = 0;
     vec2 gradient = vec2(0.0);
     bool one_surface = one_object && nearest - farthest <= kSameSurface * farthest;
+#ifdef QUARTERS
+    if (one_surface) {
+        ivec2 first_of_quarter = first + quarter * (SAMPLES / 2);
+        for (int y = 0; y < SAMPLES / 2; ++y) {
+            for (int x = 0; x < SAMPLES / 2; ++x) {
+                quarter_colour += texelFetch(u_colour, first_of_quarter + ivec2(x, y), 0).rgb;
+            }
+        }
+        o_colour = vec4(srgb_from_linear(quarter_colour * (4.0 / float(kSamples))), 1.0);
+        return;
+    }
+#endif
     if (!one_surface) {
         median = median_sample();
         if (depths[median] > 0.0) {

@@ -17,7 +17,7 @@ namespace {
 
 struct Findings {
     std::vector<FrustumTiming> frustum;
-    std::vector<FrameTiming> town;   ///< without skipping, with
+    std::vector<FrameTiming> town;   ///< without skipping, with, and with its culling on one thread
     std::vector<FrameTiming> rooms;  ///< by the field of view only, through portals
     std::vector<FrameTiming> parts;  ///< the default town: nothing skipped, and one way of skipping after the other
     std::vector<RevealCheck> checks;
@@ -36,7 +36,9 @@ Status measure_town(bool quick, Findings& findings) {
     if (!all) return all.error();
     const auto some = time_frames(*town, {}, "skipping", 40);
     if (!some) return some.error();
-    findings.town = {*all, *some};
+    const auto alone = time_frames(*town, {.threads = 1}, "skipping, one thread", 40);
+    if (!alone) return alone.error();
+    findings.town = {*all, *some, *alone};
     return Done{};
 }
 
@@ -202,6 +204,7 @@ double cross_over(const std::vector<FrustumTiming>& timings) {
 void describe_findings(Report& report, const Findings& findings) {
     report.set("skip/frame_speedup_20k", ratio(findings.town[0].frame_ms, findings.town[1].frame_ms));
     report.set("skip/culling_ms", findings.town[1].culling_ms.p50);
+    report.set("skip/culling_one_thread_ms", findings.town[2].culling_ms.p50);
     const Totals totals = totals_of(findings.checks);
     report.set("skip/occlusion_recall", totals.recall);
     report.set("skip/wrongly_skipped", totals.wrongly_skipped);

@@ -49,6 +49,12 @@ void declare_skip(Declarer& declare) {
                   [&options](const std::string& text) {
                       options.culling.min_pixels = number_in("--min-pixels", text, {0, 1000});
                   });
+    declare.value("--cull-threads", "N",
+                  "threads that decide what is drawn, 1 to 4 (2, where the machine has as many cores)",
+                  [&options](const std::string& text) {
+                      check_name("number of threads", "--cull-threads", text, {"1", "2", "3", "4"});
+                      options.culling.threads = static_cast<int>(*parsed_number(text));
+                  });
     declare.value("--draw-order", "ORDER",
                   "grouped: by distance zone and state; or by distance through a buffer: none, lru, bounded-waste, "
                   "random, round-robin (grouped)",

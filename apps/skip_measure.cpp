@@ -26,13 +26,6 @@ double now_ms() {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-/// The processor time of the calling thread: other work on the machine does not count.
-class ThreadClock final : public Clock {
-public:
-    [[nodiscard]] TimePoint now() const override { return TimePoint{thread_cpu_time()}; }
-    void sleep_until(TimePoint wake) override { LW_CHECK(wake <= now(), "this clock does not wait"); }
-};
-
 double median_of(std::vector<double> values) {
     std::ranges::sort(values);
     return percentile_of_sorted(values, 50.0);
@@ -176,7 +169,7 @@ FrustumTiming time_frustum(std::size_t objects) {
 
 Result<FrameTiming> time_frames(const scene::Scene& scene, const CullingSettings& settings, std::string label,
                                 int frames, DrawOrder order) {
-    ThreadClock clock;
+    RealClock clock;  // not a thread's processor time, which would leave out waiting for the other one
     auto renderer = SceneRenderer::create(scene, {.culling = settings, .clock = &clock, .order = order});
     if (!renderer) return renderer.error();
     FrameTiming timing;

@@ -3,22 +3,15 @@
 namespace lw {
 namespace {
 
-// Some ten microseconds: longer than the gap between two stages of one frame, far shorter than the gap between two
-// frames.
-constexpr int kSpins = 4096;
-
-// True once `done()`; false when it took too long.
-template <class Condition>
-bool spin_until(Condition done) {
-    for (int i = 0; i < kSpins; ++i) {
-        if (done()) return true;
-    }
-    return false;
+void be_idle_for_a_moment() {
+#if defined(__x86_64__)
+    __builtin_ia32_pause();  // the other thread of the core goes on
+#endif
 }
 
 }  // namespace
 
-TaskPool::TaskPool(int threads) {
+TaskPool::TaskPool(int threads, int patience) : patience_{patience} {
     for (int i = 1; i < threads; ++i) workers_.emplace_back([this, i] { serve(i); });
 }
 
@@ -46,10 +39,28 @@ void TaskPool::run(int tasks, const Work& work) {
     wake_.notify_all();
     work_off(0);
     const auto is_done = [&] { return undone_.load(std::memory_order_acquire) == 0; };
-    if (spin_until(is_done)) return;
+    if (wait_awake(is_done)) return;
     // Sleep: on fewer cores than threads, or at a higher priority, spinning on would keep a worker from its core.
     std::unique_lock lock{mutex_};
     done_.wait(lock, is_done);
+}
+
+void TaskPool::rouse() {
+    {
+        const std::lock_guard lock{mutex_};
+        ++roused_;
+    }
+    wake_.notify_all();
+}
+
+// True once `done()`; false when it took too long.
+template <class Condition>
+bool TaskPool::wait_awake(Condition done) const {
+    for (int i = 0; i < patience_; ++i) {
+        if (done()) return true;
+        be_idle_for_a_moment();
+    }
+    return false;
 }
 
 // Counts down, so that a worker that comes late, even in the next run, finds either a task of the run under way or
@@ -75,10 +86,12 @@ void TaskPool::work_off(int worker) {
 
 void TaskPool::serve(int worker) {
     const auto has_tasks = [&] { return stop_ || untaken_.load(std::memory_order_relaxed) > 0; };
+    unsigned roused = 0;
     while (true) {
-        if (!spin_until(has_tasks)) {
+        if (!wait_awake(has_tasks)) {
             std::unique_lock lock{mutex_};
-            wake_.wait(lock, has_tasks);
+            wake_.wait(lock, [&] { return has_tasks() || roused_ != roused; });
+            roused = roused_;
         }
         if (stop_) return;
         work_off(worker);

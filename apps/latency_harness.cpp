@@ -106,6 +106,9 @@ std::optional<double> recovered_from_age(const std::vector<SeenRefresh>& refresh
     return *trimmed_mean(with) - *trimmed_mean(without);
 }
 
+/// The stamp of the newest head sample of a picture says when it was latched, to a tracker's period.
+TimePoint latched(const SeenRefresh& refresh) { return refresh.photon - refresh.motion_to_photon; }
+
 std::vector<DelayInterval> publication_delays(const LiveResult& result, const std::vector<SeenRefresh>& refreshes,
                                               Injected what) {
     std::unordered_map<std::uint64_t, TimePoint> published;
@@ -117,7 +120,7 @@ std::vector<DelayInterval> publication_delays(const LiveResult& result, const st
         if (first.frame == before.frame || first.refresh != before.refresh + 1) continue;
         const auto found = published.find(first.frame);
         if (found == published.end() || result.injection.settled_at(found->second) != what) continue;
-        intervals.push_back({to_ms(before.photon - found->second), to_ms(first.photon - found->second)});
+        intervals.push_back({to_ms(latched(before) - found->second), to_ms(latched(first) - found->second)});
     }
     return intervals;
 }

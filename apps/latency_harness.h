@@ -48,9 +48,10 @@ struct LatencyHarness {
 /// apart by `injected`. Pure.
 [[nodiscard]] LatencyHarness latency_of(const LiveResult& result);
 
-/// The delay that fits most frames: each was published at some time and first seen at a refresh, so its delay lies
-/// between the refresh before minus that time and that refresh minus that time; the middle of where most of these
-/// intervals overlap. Nothing without intervals. Pure.
+/// The delay that fits most frames: each was published at some time, was not there yet when the picture before the
+/// first that shows it was latched, and was when that one was. So its delay lies between these latches less the time of
+/// publication; the middle of where most of these intervals overlap. (By refreshes the intervals would move with the
+/// pacer's lead.) Nothing without intervals. Pure.
 struct DelayInterval {
     double from_ms;
     double to_ms;

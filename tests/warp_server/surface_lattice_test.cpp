@@ -148,5 +148,15 @@ TEST(SurfaceLattice, FineWavesKeepMoreOfTheirHeightThanFromPixelsAlone) {
     EXPECT_GT(error_of(0.5), 2.0 * at_centres);
 }
 
+TEST(SurfaceLattice, ASourceTwiceAsDenseIsReadByItsPixels) {
+    const Camera source = street_camera({80, 48});
+    Camera target = shifted(source, {0.6, 0.3});
+    target.size_px = {40, 24};
+    Layer layer = striped_wall(source);
+    const DisplayFrame with_quarters = warp_once("surface", layer, {target, {}});
+    layer.cpu().quarters = {};
+    EXPECT_EQ(with_quarters.colour, warp_once("surface", layer, {target, {}}).colour);
+}
+
 }  // namespace
 }  // namespace lw::test

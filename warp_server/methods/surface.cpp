@@ -17,6 +17,17 @@
 namespace lw {
 namespace {
 
+// A source denser than the target has pixels to spare: a read between them as sharp as the lattice's would show what is
+// finer than the target's pixels. (Density 2 with 2x2 samples: FLIP 0.0264 with the lattice, 0.0229 without; density 1:
+// 0.0245 and 0.0337.)
+constexpr double kDensestForLattice = 1.4;
+
+double pixels_per_tangent(const Camera& camera) { return camera.size_px.x / (camera.fov.right - camera.fov.left); }
+
+bool reads_between_pixels(const Camera& source, const Camera& target) {
+    return pixels_per_tangent(source) <= kDensestForLattice * pixels_per_tangent(target);
+}
+
 // A layer to be drawn, and where it shows anything.
 struct PaintedLayer {
     PatchInput input;
@@ -222,7 +233,8 @@ private:
             if (made != nullptr) own_.push_back(std::move(made));
             matrices_[i].build(layer, target, layers[i].depth_share);
             counters_ += bad_pixels(prepared.id_counts, matrices_[i]);
-            layers_.push_back({{&prepared, &matrices_[i]}, layers[i].reach, layers[i].nearest_depth});
+            const bool between_pixels = reads_between_pixels(layer.camera, target.camera);
+            layers_.push_back({{&prepared, &matrices_[i], between_pixels}, layers[i].reach, layers[i].nearest_depth});
         }
     }
 

@@ -125,7 +125,9 @@ public:
 private:
     static constexpr std::size_t kPatchesAhead = 64;
 
-    [[nodiscard]] static bool has_lattice(const PatchInput& input) { return input.prepared->lattice.size_px().x > 0; }
+    [[nodiscard]] static bool has_lattice(const PatchInput& input) {
+        return input.between_pixels && input.prepared->lattice.size_px().x > 0;
+    }
 
     // As many patches at once as there are lanes; `paint` gets those that have pixels here, object by object.
     template <class Paint>

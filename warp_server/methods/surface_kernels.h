@@ -11,6 +11,7 @@ namespace lw {
 struct PatchInput {
     const PreparedSurface* prepared = nullptr;
     const ObjectMatrices* matrices = nullptr;
+    bool between_pixels = true;  ///< colours are read from the lattice, where there is one
 };
 
 /// Entries [begin, end) of a list.

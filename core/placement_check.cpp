@@ -20,7 +20,7 @@ bool is_invertible_placement(const glm::dmat4& world_from_object) {
     if (!is_placement(world_from_object)) return false;
     glm::dmat3 axes{world_from_object};
     for (int axis = 0; axis < 3; ++axis) {
-        const double length = std::hypot(axes[axis].x, axes[axis].y, axes[axis].z);
+        const double length = glm::length(axes[axis]);  // lengths whose squares a double cannot hold fail below
         if (!(length >= kShortest && length <= kLongest)) return false;
         axes[axis] /= length;
     }

@@ -24,7 +24,7 @@ bool fits_a_float(const glm::dmat4& m) {
 
 // How an object moves the world between two times. An object's origin may be 10,000 km from its surface, and both
 // placements are then large numbers whose difference counts: in double 5e-9 m of it would be lost, 0.01 px of something
-// 1 cm away under a lens of 10,000 px per unit tangent. One product per mover and picture, so its time does not matter.
+// 1 cm away under a lens of 10,000 px per unit tangent.
 using Wide = long double;
 using WideMatrix = glm::mat<3, 3, Wide>;
 using WideVector = glm::vec<3, Wide>;
@@ -32,13 +32,13 @@ using WideVector = glm::vec<3, Wide>;
 // Axis by axis at length 1, so that neither scale nor a flat object costs digits. Invertible placements only.
 WideMatrix inverse_axes(const glm::dmat4& world_from_object) {
     WideMatrix axes{glm::dmat3{world_from_object}};
-    WideVector length{1};
+    WideVector per_length{1};
     for (int axis = 0; axis < 3; ++axis) {
-        length[axis] = std::hypot(axes[axis].x, axes[axis].y, axes[axis].z);
-        axes[axis] /= length[axis];
+        per_length[axis] = Wide{1} / glm::length(axes[axis]);  // invertible: its square is far from the limits
+        axes[axis] *= per_length[axis];
     }
     WideMatrix rows = glm::transpose(glm::inverse(axes));  // column i: row i of the inverse
-    for (int axis = 0; axis < 3; ++axis) rows[axis] /= length[axis];
+    for (int axis = 0; axis < 3; ++axis) rows[axis] *= per_length[axis];
     return glm::transpose(rows);
 }
 
@@ -54,35 +54,53 @@ glm::dmat4 motion_about(const glm::dvec3& origin_world, const glm::dmat4& at_sou
     return motion;
 }
 
-Transform<TargetEye, World> target_eye_from_shifted_world(const Camera& source, const Camera& target) {
-    Pose shifted = target.world_from_eye;
-    shifted.position_m -= source.world_from_eye.position_m;
-    return {inverse_matrix_of(shifted)};
-}
+// From a layer to the target: what all its objects have in common. The world is shifted, see motion_about().
+class ViewChange {
+public:
+    ViewChange(const Camera& source, const Camera& target)
+        : source_eye_world_{source.world_from_eye.position_m},
+          target_px_from_shifted_world_{target_px_from_target_clip(target) * target_clip_from_target_eye(target) *
+                                        target_eye_from_shifted_world(source, target)},
+          shifted_world_from_source_px_{shifted_world_from_source_eye(source) * source_eye_from_source_px(source)} {}
 
-Transform<World, SourceEye> shifted_world_from_source_eye(const Camera& source) {
-    return {matrix_of(Pose{glm::dvec3{0.0}, source.world_from_eye.orientation})};
-}
+    [[nodiscard]] Transform<TargetPx, SourcePx> of_static() const {
+        return target_px_from_shifted_world_ * shifted_world_from_source_px_;
+    }
+    [[nodiscard]] std::optional<Transform<TargetPx, SourcePx>> of_mover(const glm::dmat4& at_source,
+                                                                        const glm::dmat4& at_target) const {
+        if (!is_invertible_placement(at_source) || !is_placement(at_target)) return std::nullopt;
+        if (at_source == at_target) return of_static();
+        const Transform<World, World> motion{motion_about(source_eye_world_, at_source, at_target)};
+        const auto target_px_from_source_px = target_px_from_shifted_world_ * motion * shifted_world_from_source_px_;
+        if (!fits_a_float(target_px_from_source_px.matrix)) return std::nullopt;
+        return target_px_from_source_px;
+    }
+
+private:
+    static Transform<TargetEye, World> target_eye_from_shifted_world(const Camera& source, const Camera& target) {
+        Pose shifted = target.world_from_eye;
+        shifted.position_m -= source.world_from_eye.position_m;
+        return {inverse_matrix_of(shifted)};
+    }
+    static Transform<World, SourceEye> shifted_world_from_source_eye(const Camera& source) {
+        return {matrix_of(Pose{glm::dvec3{0.0}, source.world_from_eye.orientation})};
+    }
+
+    glm::dvec3 source_eye_world_;
+    Transform<TargetPx, World> target_px_from_shifted_world_;
+    Transform<World, SourcePx> shifted_world_from_source_px_;
+};
 
 }  // namespace
 
 Transform<TargetPx, SourcePx> static_target_px_from_source_px(const Camera& source, const Camera& target) {
-    return target_px_from_target_clip(target) * target_clip_from_target_eye(target) *
-           (target_eye_from_shifted_world(source, target) * shifted_world_from_source_eye(source)) *
-           source_eye_from_source_px(source);
+    return ViewChange{source, target}.of_static();
 }
 
 std::optional<Transform<TargetPx, SourcePx>> mover_target_px_from_source_px(const Camera& source, const Camera& target,
                                                                             const glm::dmat4& at_source,
                                                                             const glm::dmat4& at_target) {
-    if (!is_invertible_placement(at_source) || !is_placement(at_target)) return std::nullopt;
-    const Transform<World, World> motion{motion_about(source.world_from_eye.position_m, at_source, at_target)};
-    const auto target_px_from_source_px =
-        target_px_from_target_clip(target) * target_clip_from_target_eye(target) *
-        (target_eye_from_shifted_world(source, target) * motion * shifted_world_from_source_eye(source)) *
-        source_eye_from_source_px(source);
-    if (!fits_a_float(target_px_from_source_px.matrix)) return std::nullopt;
-    return target_px_from_source_px;
+    return ViewChange{source, target}.of_mover(at_source, at_target);
 }
 
 std::optional<ReprojectedSample> reproject(const Transform<TargetPx, SourcePx>& target_px_from_source_px,
@@ -108,14 +126,14 @@ void ReprojectionTable::build(const Camera& source, const Camera& target, std::s
     }
 
     entries_.assign(std::size_t{largest} + 1, Entry{});
+    const ViewChange change{source, target};
     for (const ObjectTransform& object : at_source) {
         const glm::dmat4& at_source_time = object.world_from_object;
         const glm::dmat4* at_photon = target_by_id_[object.id];
-        const auto matrix = mover_target_px_from_source_px(source, target, at_source_time,
-                                                           at_photon != nullptr ? *at_photon : at_source_time);
+        const auto matrix = change.of_mover(at_source_time, at_photon != nullptr ? *at_photon : at_source_time);
         if (matrix) entries_[object.id] = {*matrix, true};
     }
-    entries_[0] = {static_target_px_from_source_px(source, target), true};
+    entries_[0] = {change.of_static(), true};
 }
 
 }  // namespace lw

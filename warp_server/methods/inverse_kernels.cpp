@@ -43,7 +43,7 @@ public:
 private:
     // Lanes(DF) pixels from column x on, some of them beyond the row.
     HWY_INLINE void search(int x, int y) {
-        const VF pixel_x = hn::Add(hn::Iota(DF{}, static_cast<float>(x)), hn::Set(DF{}, 0.5F));
+        const VF pixel_x = hn::Add(lanes_from(DF{}, static_cast<float>(x)), hn::Set(DF{}, 0.5F));
         const VF pixel_y = hn::Set(DF{}, static_cast<float>(y) + 0.5F);
         const VF limit_x = hn::Set(DF{}, static_cast<float>(size_px_.x) - 1e-3F);
         const VF limit_y = hn::Set(DF{}, static_cast<float>(size_px_.y) - 1e-3F);

@@ -287,7 +287,7 @@ private:
     // Pixels from column x on; each once.
     template <class Run>
     HWY_INLINE void solve_rows(const Patch& patch, std::size_t lane, const PlacedPatches& placed, const Run& run) {
-        const VF lane_x = hn::Iota(DF{}, 0.0F);
+        const VF lane_x = lanes_from(DF{}, 0.0F);
         const bool is_long = placed.x_end[lane] - placed.x_begin[lane] > kLongRowPx;
         for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; ++y) {
             const PatchRow row = row_of(patch, hn::Set(DF{}, static_cast<float>(y)));
@@ -386,7 +386,7 @@ private:
         if (placed.x_end[lane] - placed.x_begin[lane] >= kFewColumnsPx && target_width_ >= lanes()) {
             solve_rows(patch, lane, placed,
                        [&](hn::Mask<DF> inside, int x, int y, const Solved& solved) LW_INLINE_LAMBDA {
-                           const auto pixel = hn::Iota(DI{}, y * target_width_ + x);
+                           const auto pixel = lanes_from(DI{}, y * target_width_ + x);
                            push(inside, pixel, solved,
                                 [&](hn::Mask<DF> whole, hn::VFromD<DI>, const Solved&)
                                     LW_INLINE_LAMBDA { paint_run(origin_x, origin_y, solved, x, y, whole); });

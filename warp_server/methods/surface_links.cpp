@@ -141,7 +141,7 @@ HWY_INLINE std::uint32_t on_plane(D d, const CpuPixels& pixels, const BlockToTes
         }
         return bits;
     }
-    const auto step = hn::Mul(hn::Iota(d, 0.0F), hn::Set(d, block.gradient_x));
+    const auto step = hn::Mul(lanes_from(d, 0.0F), hn::Set(d, block.gradient_x));
     const auto depth = hn::LoadU(d, pixels.depth.pixels().data() + at);
     const auto id = hn::PromoteTo(di, hn::LoadU(d16, pixels.object_id.pixels().data() + at));
     const auto off = hn::Abs(hn::Sub(depth, hn::Add(hn::Set(d, first_depth), step)));

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <utility>
 
 #include "warp_server/methods/lanes.h"
 #include "warp_server/methods/splat_footprint.h"
@@ -21,7 +19,9 @@ namespace {
 
 constexpr float kNoNeighbour = 8.0F;  // a depth that lies on no surface: depths are at most 1
 
-// Keys that are written one by one, gathered so that the loop that writes them has a length the processor can foresee.
+// Keys on their way to the pixels, gathered so that many points are placed in a row before the first key is written.
+// Placing a point is a long chain of dependent operations, which the processor works off for several blocks at once
+// until it has guessed a branch wrong; and where a loop over the lanes that are left will end, nobody can foresee.
 class PendingKeys {
 public:
     template <class D, class VU, class VI>
@@ -40,15 +40,17 @@ public:
         for (std::size_t i = 0; i < count_; ++i) {
             const WinnerKey key = (WinnerKey{high_[i]} << 32U) | low_[i];
             WinnerKey& winner = keys[place_[i]];
+            // Without a branch: where the head turned sideways nobody foresees which of two points lies closer to the
+            // pixel, and guesses took a third of the time.
             const WinnerKey before = winner;
-            winner = key > before ? key : before;  // see write_keys()
+            winner = key > before ? key : before;
         }
         count_ = 0;
     }
 
 private:
-    static constexpr std::size_t kMany = 128;
-    static constexpr std::size_t kRoom = kMany + 4 * kMaxLanes;  // one block adds up to three times, and stores whole
+    static constexpr std::size_t kMany = 1024;                   // fits the first cache; 128 took a tenth more time
+    static constexpr std::size_t kRoom = kMany + 5 * kMaxLanes;  // one block adds up to four times, and stores whole
 
     std::size_t count_ = 0;
     std::uint32_t high_[kRoom];
@@ -79,41 +81,6 @@ HWY_NOINLINE void write_large_point(KeyRing& keys, float x_px, float y_px, float
     }
 }
 
-template <class Work, std::size_t... kLane>
-HWY_INLINE void for_each_lane(const Work& work, std::index_sequence<kLane...> /*lanes*/) {
-    (work(kLane), ...);
-}
-
-// Competes with the keys at `place`, one key per lane.
-template <class D, class VU, class VI>
-HWY_INLINE void write_keys(D d, WinnerKey* keys, hn::Mask<D> wanted, VU high, VU low, VI place) {
-    const hn::RebindToUnsigned<D> du;
-    const hn::RebindToSigned<D> di;
-    HWY_ALIGN std::uint32_t words[2 * kMaxLanes];
-    HWY_ALIGN std::int32_t places[kMaxLanes];
-    hn::StoreInterleaved2(low, high, du, words);
-    hn::Store(place, di, places);
-    const auto compete = [&](std::size_t lane) {
-        WinnerKey key;
-        std::memcpy(&key, words + 2 * lane, sizeof key);
-        WinnerKey& winner = keys[places[lane]];
-        // Without a branch: where the head turned sideways nobody foresees which of two points lies closer to the
-        // pixel, and guesses took a third of the time.
-        const WinnerKey before = winner;
-        winner = key > before ? key : before;
-    };
-    if constexpr (hn::MaxLanes(D{}) > 1) {
-        // Written out: most blocks of a picture get here, and their loop must not cost a guess.
-        if (hn::AllTrue(d, wanted)) {
-            for_each_lane(compete, std::make_index_sequence<hn::MaxLanes(D{})>{});
-            return;
-        }
-    }
-    for (std::uint32_t bits = bits_of(d, wanted); bits != 0; bits &= bits - 1) {
-        compete(static_cast<std::size_t>(std::countr_zero(bits)));
-    }
-}
-
 // Writes the points of Lanes(d) pixels of one row from column x on, as far as `wanted`.
 template <class D>
 HWY_INLINE void write_points(D d, BandContext& band, const PlacedPoints<D>& points, const Footprints<D>& size,
@@ -122,41 +89,53 @@ HWY_INLINE void write_points(D d, BandContext& band, const PlacedPoints<D>& poin
     const hn::RebindToSigned<D> di;
     KeyRing& keys = *band.keys;
 
-    // Pixels whose centres lie in [place - half, place + half).
+    // Pixels whose centres lie in [place - half, place + half), and one at least.
     const auto half_px = hn::Set(d, 0.5F);
     const auto one = hn::Set(d, 1.0F);
-    const auto first_x = hn::Set(d, static_cast<float>(keys.first_column()));
-    const auto end_x = hn::Set(d, static_cast<float>(keys.first_column() + keys.width()));
-    const auto first_y = hn::Set(d, static_cast<float>(band.target_rows.begin));
-    const auto end_y = hn::Set(d, static_cast<float>(band.target_rows.end));
-    const auto centre_from = [&](hn::Vec<D> edge, hn::Vec<D> least, hn::Vec<D> greatest) {
-        return hn::Min(hn::Max(hn::Ceil(hn::Sub(edge, half_px)), least), greatest);
+    const auto begin_of = [&](hn::Vec<D> centre, hn::Vec<D> half) { return hn::Ceil(hn::Sub(centre, half)); };
+    const auto end_of = [&](hn::Vec<D> centre, hn::Vec<D> half, hn::Vec<D> begin) {
+        return hn::Max(hn::Ceil(hn::Add(centre, half)), hn::Add(begin, one));
     };
-    const auto x_begin = centre_from(hn::Sub(points.x_px, size.half_x_px), first_x, end_x);
-    const auto x_end = centre_from(hn::Add(points.x_px, size.half_x_px), first_x, end_x);
-    const auto y_begin = centre_from(hn::Sub(points.y_px, size.half_y_px), first_y, end_y);
-    const auto y_end = centre_from(hn::Add(points.y_px, size.half_y_px), first_y, end_y);
+    const auto centre_x = hn::Sub(points.x_px, half_px);
+    const auto centre_y = hn::Sub(points.y_px, half_px);
+    auto x_begin = begin_of(centre_x, size.half_x_px);
+    auto y_begin = begin_of(centre_y, size.half_y_px);
+    auto x_end = end_of(centre_x, size.half_x_px, x_begin);
+    auto y_end = end_of(centre_y, size.half_y_px, y_begin);
+    const auto clamp = [&](hn::Vec<D> value, int least, int greatest) {
+        return hn::Min(hn::Max(value, hn::Set(d, static_cast<float>(least))), hn::Set(d, static_cast<float>(greatest)));
+    };
+    const int end_column = keys.first_column() + keys.width();
+    x_begin = clamp(x_begin, keys.first_column(), end_column);
+    x_end = clamp(x_end, keys.first_column(), end_column);
+    y_begin = clamp(y_begin, band.target_rows.begin, band.target_rows.end);
+    y_end = clamp(y_end, band.target_rows.begin, band.target_rows.end);
     const auto columns = hn::Sub(x_end, x_begin);
     const auto rows = hn::Sub(y_end, y_begin);
     const auto valid = hn::And(hn::And(wanted, points.in_front), hn::And(hn::Ge(columns, one), hn::Ge(rows, one)));
     if (hn::AllFalse(d, valid)) return;
 
-    const auto dx = hn::Sub(hn::Add(x_begin, half_px), points.x_px);
-    const auto dy = hn::Sub(hn::Add(y_begin, half_px), points.y_px);
+    const auto dx = hn::Sub(x_begin, centre_x);
+    const auto dy = hn::Sub(y_begin, centre_y);
     const KeyParts<D> parts =
         key_parts(d, points.depth, hn::LoadU(du, reinterpret_cast<const std::uint32_t*>(colours)));
-    const auto width = hn::Set(di, keys.stride());
-    const auto slots = hn::Set(di, keys.slots() - 1);
-    const auto x_first = hn::Sub(hn::ConvertTo(di, x_begin), hn::Set(di, keys.first_column()));
-    const auto y_first = hn::ConvertTo(di, y_begin);
-    const auto place = hn::Add(hn::Mul(hn::And(y_first, slots), width), x_first);
-    write_keys(d, keys.data(), valid, high_of_key(d, parts, dx, dy), parts.low, place);
+    // From here to 2^22 the bits of a float count in ones, which spares a conversion.
+    constexpr float kOnes = 8388608.0F;
+    const auto ones = [&](hn::Vec<D> whole) { return hn::BitCast(di, hn::Add(whole, hn::Set(d, kOnes))); };
+    const auto x_first = hn::Sub(ones(x_begin), hn::Set(di, std::bit_cast<std::int32_t>(kOnes) + keys.first_column()));
+    const auto row_start = [&](hn::VFromD<decltype(di)> row) {
+        return hn::Mul(hn::And(row, hn::Set(di, keys.slots() - 1)), hn::Set(di, keys.stride()));
+    };
+    const auto y_first = ones(y_begin);
+    const auto place = hn::Add(row_start(y_first), x_first);
+    band.pending.add(d, valid, high_of_key(d, parts, dx, dy), parts.low, place);
+    band.pending.write_if_many(keys.data());
 
     // The second column and row of points somewhat larger than a pixel.
     const auto wide = hn::And(valid, hn::Gt(columns, one));
     const auto tall = hn::And(valid, hn::Gt(rows, one));
     if (hn::AllFalse(d, hn::Or(wide, tall))) return;
-    const auto place_below = hn::Add(hn::Mul(hn::And(hn::Add(y_first, hn::Set(di, 1)), slots), width), x_first);
+    const auto place_below = hn::Add(row_start(hn::Add(y_first, hn::Set(di, 1))), x_first);
     const auto dx_right = hn::Add(dx, one);
     const auto dy_below = hn::Add(dy, one);
     const auto right = hn::Set(di, 1);
@@ -166,7 +145,6 @@ HWY_INLINE void write_points(D d, BandContext& band, const PlacedPoints<D>& poin
     if (!hn::AllFalse(d, both)) {
         band.pending.add(d, both, high_of_key(d, parts, dx_right, dy_below), parts.low, hn::Add(place_below, right));
     }
-    band.pending.write_if_many(keys.data());
 
     const auto two = hn::Set(d, 2.0F);
     const auto large = hn::And(valid, hn::Or(hn::Gt(columns, two), hn::Gt(rows, two)));
@@ -197,10 +175,11 @@ HWY_INLINE void splat_uniform(D d, BandContext& band, int x, int y, ObjectId obj
     __builtin_prefetch(depths + 2 * width);
     __builtin_prefetch(colours + width);
     const auto depth = hn::LoadU(d, depths);
-    const PlacedPoints<D> points = place_points(d, m, x, y, depth);
+    const LaneMatrices<D> matrices = same_matrices(d, m, y);
+    const PlacedPoints<D> points = place_points(d, matrices, x, depth);
     const auto gradient_x = one_sided_differences(d, depth, hn::LoadU(d, depths - 1), hn::LoadU(d, depths + 1));
     const auto gradient_y = one_sided_differences(d, depth, hn::LoadU(d, depths - width), hn::LoadU(d, depths + width));
-    const Footprints<D> size = footprints(d, m, points, gradient_x, gradient_y);
+    const Footprints<D> size = footprints(d, matrices, points, gradient_x, gradient_y);
     // Object 0's background is not a point. Other objects may be infinitely far away and still move.
     const auto wanted = hn::Gt(depth, hn::Set(d, object == 0 ? 0.0F : -1.0F));
     write_points(d, band, points, size, wanted, colours);
@@ -256,6 +235,9 @@ HWY_INLINE void splat_mixed(D d, BandContext& band, int x, int y) {
     const auto gradient_x = one_sided_differences(d, depth, left, right);
     const auto gradient_y = one_sided_differences(d, depth, above, below);
 
+    // Lanes of several objects are placed together, each by its own matrix.
+    auto wanted = hn::MaskFromVec(hn::Zero(d));
+    auto matrices = LaneMatrices<D>{};
     while (!hn::AllFalse(d, remaining)) {  // one turn per object
         const ObjectId id = id_row[hn::FindFirstTrue(d, remaining)];
         const auto same = hn::RebindMask(d, hn::Eq(ids, hn::Set(du, std::uint32_t{id})));
@@ -263,10 +245,12 @@ HWY_INLINE void splat_mixed(D d, BandContext& band, int x, int y) {
         remaining = hn::AndNot(same, remaining);
         const PixelMatrix* m = band.matrices->find(id);
         if (m == nullptr) continue;
-        const PlacedPoints<D> points = place_points(d, *m, x, y, depth);
-        write_points(d, band, points, footprints(d, *m, points, gradient_x, gradient_y), group,
-                     pixels.colour.row(y).data() + x);
+        wanted = hn::Or(wanted, group);
+        matrices = with_matrix(d, matrices, group, *m, y);
     }
+    const PlacedPoints<D> points = place_points(d, matrices, x, depth);
+    write_points(d, band, points, footprints(d, matrices, points, gradient_x, gradient_y), wanted,
+                 pixels.colour.row(y).data() + x);
 }
 
 // Any run of pixels; at the first and last pixel of the image one by one.

@@ -17,6 +17,44 @@
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 
+/// The PixelMatrix of every lane, for pixels of one row.
+template <class D>
+struct LaneMatrices {
+    struct Column {
+        hn::Vec<D> x, y, w;
+    };
+    Column start;  ///< of the row: one + y * y_px
+    Column x, y, z;
+    hn::Vec<D> depth_scale;
+};
+
+/// What `lane_of` makes of every value of `m` for row `y`; it is given the value and the one of `before`.
+template <class D, class LaneOf>
+HWY_INLINE LaneMatrices<D> matrices_of(const PixelMatrix& m, int y, const LaneMatrices<D>& before,
+                                       const LaneOf& lane_of) {
+    const auto column = [&](const PixelMatrix::Column& own, const typename LaneMatrices<D>::Column& old) {
+        return typename LaneMatrices<D>::Column{lane_of(own.x, old.x), lane_of(own.y, old.y), lane_of(own.w, old.w)};
+    };
+    const float y_px = static_cast<float>(y) + 0.5F;
+    const PixelMatrix::Column start{m.one.x + y_px * m.y.x, m.one.y + y_px * m.y.y, m.one.w + y_px * m.y.w};
+    return {column(start, before.start), column(m.x, before.x), column(m.y, before.y), column(m.z, before.z),
+            lane_of(m.depth_scale, before.depth_scale)};
+}
+
+/// `m` in all lanes.
+template <class D>
+HWY_INLINE LaneMatrices<D> same_matrices(D d, const PixelMatrix& m, int y) {
+    return matrices_of(m, y, LaneMatrices<D>{}, [&](float value, hn::Vec<D> /*old*/) { return hn::Set(d, value); });
+}
+
+/// `m` in the `lanes`, `before` in the others.
+template <class D>
+HWY_INLINE LaneMatrices<D> with_matrix(D d, const LaneMatrices<D>& before, hn::Mask<D> lanes, const PixelMatrix& m,
+                                       int y) {
+    return matrices_of(m, y, before,
+                       [&](float value, hn::Vec<D> old) { return hn::IfThenElse(lanes, hn::Set(d, value), old); });
+}
+
 /// Points on their way to the target.
 template <class D>
 struct PlacedPoints {
@@ -24,20 +62,18 @@ struct PlacedPoints {
     hn::Mask<D> in_front;  ///< between the eye plane and the near plane there is nothing to see
 };
 
-/// Lanes(d) neighbouring pixels of row `y` from column `x` on, all of the object that `m` moves.
+/// Lanes(d) neighbouring pixels of the matrices' row from column `x` on.
 template <class D>
-HWY_INLINE PlacedPoints<D> place_points(D d, const PixelMatrix& m, int x, int y, hn::Vec<D> depth) {
-    const float y_px = static_cast<float>(y) + 0.5F;
-    const auto x_px = hn::Add(hn::Iota(d, static_cast<float>(x)), hn::Set(d, 0.5F));
-    const auto row_term = [&](float one, float column_y, float column_x, float column_z) {
-        const auto start = hn::Set(d, one + y_px * column_y);
-        return hn::Add(hn::Add(start, hn::Mul(x_px, hn::Set(d, column_x))), hn::Mul(depth, hn::Set(d, column_z)));
+HWY_INLINE PlacedPoints<D> place_points(D d, const LaneMatrices<D>& m, int x, hn::Vec<D> depth) {
+    const auto x_px = hn::Add(lanes_from(d, static_cast<float>(x)), hn::Set(d, 0.5F));
+    const auto row_term = [&](hn::Vec<D> start, hn::Vec<D> column_x, hn::Vec<D> column_z) {
+        return hn::Add(hn::Add(start, hn::Mul(x_px, column_x)), hn::Mul(depth, column_z));
     };
-    const auto w = row_term(m.one.w, m.y.w, m.x.w, m.z.w);
+    const auto w = row_term(m.start.w, m.x.w, m.z.w);
     const auto inverse_w = hn::Div(hn::Set(d, 1.0F), w);
-    const auto target_depth = hn::Mul(hn::Mul(depth, hn::Set(d, m.depth_scale)), inverse_w);
-    return {hn::Mul(row_term(m.one.x, m.y.x, m.x.x, m.z.x), inverse_w),
-            hn::Mul(row_term(m.one.y, m.y.y, m.x.y, m.z.y), inverse_w), target_depth, inverse_w,
+    const auto target_depth = hn::Mul(hn::Mul(depth, m.depth_scale), inverse_w);
+    return {hn::Mul(row_term(m.start.x, m.x.x, m.z.x), inverse_w),
+            hn::Mul(row_term(m.start.y, m.x.y, m.z.y), inverse_w), target_depth, inverse_w,
             hn::And(hn::Gt(w, hn::Zero(d)), hn::Le(target_depth, hn::Set(d, 1.0F)))};
 }
 
@@ -58,13 +94,15 @@ struct Footprints {
 };
 
 template <class D>
-HWY_INLINE Footprints<D> footprints(D d, const PixelMatrix& m, const PlacedPoints<D>& points, hn::Vec<D> gradient_x,
+HWY_INLINE Footprints<D> footprints(D d, const LaneMatrices<D>& m, const PlacedPoints<D>& points, hn::Vec<D> gradient_x,
                                     hn::Vec<D> gradient_y) {
-    const auto derivative = [&](float column, float column_w, hn::Vec<D> place) {
-        return hn::Mul(hn::Sub(hn::Set(d, column), hn::Mul(place, hn::Set(d, column_w))), points.inverse_w);
+    // w times the derivatives of a place by the source's columns, rows and depth.
+    const auto derivative = [&](hn::Vec<D> column, hn::Vec<D> column_w, hn::Vec<D> place) {
+        return hn::Sub(column, hn::Mul(place, column_w));
     };
+    const auto half_per_w = hn::Mul(hn::Set(d, 0.5F), points.inverse_w);
     const auto half_extents = [&](hn::Vec<D> along_x, hn::Vec<D> along_y) {
-        const auto half = hn::Mul(hn::Set(d, 0.5F), hn::Add(hn::Abs(along_x), hn::Abs(along_y)));
+        const auto half = hn::Mul(half_per_w, hn::Add(hn::Abs(along_x), hn::Abs(along_y)));
         return hn::Min(hn::Max(half, hn::Set(d, 0.5F)), hn::Set(d, kLargestHalfExtentPx));
     };
     const auto z_x = derivative(m.z.x, m.z.w, points.x_px);
@@ -95,11 +133,11 @@ HWY_INLINE KeyParts<D> key_parts(D /*d*/, hn::Vec<D> depth, hn::Vec<hn::RebindTo
 template <class D>
 HWY_INLINE hn::Vec<hn::RebindToUnsigned<D>> high_of_key(D d, const KeyParts<D>& parts, hn::Vec<D> dx, hn::Vec<D> dy) {
     const hn::RebindToUnsigned<D> du;
-    const hn::RebindToSigned<D> di;
     const auto distance2 = hn::Add(hn::Mul(dx, dx), hn::Mul(dy, dy));
-    const auto farness = hn::Min(hn::Set(d, 254.0F), hn::Mul(distance2, hn::Set(d, 254.0F / kFarthestTold2_px)));
-    const auto closeness = hn::Sub(hn::Set(du, 255U), hn::BitCast(du, hn::ConvertTo(di, farness)));
-    return hn::Or(parts.high_but_closeness, hn::ShiftLeft<9>(closeness));
+    const auto falling = hn::Sub(hn::Set(d, kClosestMantissa), hn::Mul(distance2, hn::Set(d, kMantissaPerPx2)));
+    const auto bits = hn::BitCast(du, hn::Max(falling, hn::Set(d, kFarthestMantissa)));
+    constexpr int kShift = kMantissaShift - 9;
+    return hn::Or(parts.high_but_closeness, hn::And(hn::ShiftRight<kShift>(bits), hn::Set(du, 0xFFU << 9U)));
 }
 
 }  // namespace lw::HWY_NAMESPACE

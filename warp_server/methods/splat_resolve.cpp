@@ -7,6 +7,7 @@
 #include <hwy/highway.h>
 
 #include <bit>
+#include <optional>
 
 #include "warp_server/methods/lanes.h"
 
@@ -24,7 +25,7 @@ struct SourcePlaces {
 template <class D>
 HWY_INLINE SourcePlaces<D> source_places(D d, const glm::mat3& h, glm::ivec2 size_px, int x, int y) {
     const float y_px = static_cast<float>(y) + 0.5F;
-    const auto x_px = hn::Add(hn::Iota(d, static_cast<float>(x)), hn::Set(d, 0.5F));
+    const auto x_px = hn::Add(lanes_from(d, static_cast<float>(x)), hn::Set(d, 0.5F));
     const auto term = [&](int component) {
         return hn::Add(hn::Set(d, h[2][component] + y_px * h[1][component]),
                        hn::Mul(x_px, hn::Set(d, h[0][component])));
@@ -207,6 +208,80 @@ HWY_INLINE void resolve_unreached(D d, const SplatInput& input, const glm::mat3&
     show(d, shown, at, out);
 }
 
+// Runs of target pixels that no point reached, most of which show nothing but background of one or two source rows.
+constexpr int kRun_px = kTileWidth_px;
+
+// Where a run lies in the source when all of it shows background.
+struct BackgroundRun {
+    int row;          // the upper of at most two
+    int last_row;     // the lower
+    bool rightwards;  // along the target row
+};
+
+// Places along a target row move one way in the source: what holds of the two ends holds between.
+std::optional<BackgroundRun> background_run(const SplatInput& input, const glm::mat3& h, int x, int y) {
+    constexpr float kRounding_px = 0.01F;
+    const glm::vec2 size_px{input.pixels->depth.size_px()};
+    glm::vec2 ends[2];
+    for (const int end : {0, 1}) {
+        const glm::vec3 place =
+            h * glm::vec3{static_cast<float>(x + end * (kRun_px - 1)) + 0.5F, static_cast<float>(y) + 0.5F, 1.0F};
+        if (!(place.z > 0.0F)) return std::nullopt;
+        ends[end] = glm::vec2{place} / place.z;
+    }
+    const glm::vec2 least = glm::min(ends[0], ends[1]) - kRounding_px;
+    const glm::vec2 greatest = glm::max(ends[0], ends[1]) + kRounding_px;
+    const bool inside = least.x >= 0.0F && least.y >= 0.0F && greatest.x < size_px.x && greatest.y < size_px.y;
+    if (!inside) return std::nullopt;
+    const auto row = static_cast<int>(least.y);
+    const auto last_row = static_cast<int>(greatest.y);
+    if (last_row > row + 1) return std::nullopt;
+    const auto begin_x = static_cast<int>(least.x);
+    const auto end_x = static_cast<int>(greatest.x) + 1;
+    for (const int seen : {row, last_row}) {
+        if (input.tiles->background_in(begin_x, end_x, seen) != BackgroundShare::all) return std::nullopt;
+    }
+    return BackgroundRun{row, last_row, ends[0].x <= ends[1].x};
+}
+
+// False when the places of a vector lie too wide apart for this. May have shown some by then.
+template <class D>
+HWY_INLINE bool show_background_run(D d, const SplatInput& input, const glm::mat3& h, const BackgroundRun& run, int x,
+                                    int y, DisplayFrame& out) {
+    const hn::RebindToUnsigned<D> du;
+    const hn::RebindToSigned<D> di;
+    const hn::Rebind<std::uint8_t, D> d8;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    const glm::ivec2 size_px = input.pixels->depth.size_px();
+    const int last_first = size_px.x - 2 * lanes;  // two vectors are read at once
+    if (last_first < 0) return false;
+    const auto* upper = reinterpret_cast<const std::uint32_t*>(input.pixels->colour.row(run.row).data());
+    const auto* lower = reinterpret_cast<const std::uint32_t*>(input.pixels->colour.row(run.last_row).data());
+    const auto lower_y = hn::Set(d, static_cast<float>(run.row + 1));
+    const std::size_t end_lane = run.rightwards ? 0 : hn::Lanes(d) - 1;
+    const std::size_t at =
+        static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width()) + static_cast<std::size_t>(x);
+    for (int i = 0; i < kRun_px; i += lanes) {
+        const SourcePlaces<D> places = source_places(d, h, size_px, x + i, y);
+        const auto column = hn::ConvertTo(di, places.x_px);
+        const int first = std::min(hn::ExtractLane(column, end_lane), last_first);
+        if (hn::ExtractLane(column, hn::Lanes(d) - 1 - end_lane) - first >= 2 * lanes) return false;
+        __builtin_prefetch(lower + first + size_px.x);  // of the next row, which lies in another page
+        const auto offset = hn::Sub(column, hn::Set(di, first));
+        const auto shown_of = [&](const std::uint32_t* row) LW_INLINE_LAMBDA {
+            return pick(du, hn::LoadU(du, row + first), hn::LoadU(du, row + first + lanes), offset);
+        };
+        const auto in_lower = hn::RebindMask(du, hn::Ge(places.y_px, lower_y));
+        const auto colour = hn::IfThenElse(in_lower, shown_of(lower), shown_of(upper));
+        const std::size_t to = at + static_cast<std::size_t>(i);
+        hn::StoreU(hn::Or(colour, hn::Set(du, 0xFF000000U)), du,
+                   reinterpret_cast<std::uint32_t*>(out.colour.pixels().data() + to));
+        hn::StoreU(hn::Zero(d), d, out.depth.pixels().data() + to);
+        hn::StoreU(hn::Set(d8, 1), d8, reinterpret_cast<std::uint8_t*>(out.coverage.pixels().data() + to));
+    }
+    return true;
+}
+
 void resolve_rows_here(const SplatInput& input, const BackgroundLookup& background, RowRange target_rows, KeyRing& keys,
                        DisplayFrame& out) {
     const DF d;
@@ -228,10 +303,17 @@ void resolve_unreached_here(const SplatInput& input, const BackgroundLookup& bac
     const hn::CappedTag<float, 1> d1;
     const int lanes = static_cast<int>(hn::Lanes(d));
     const glm::mat3& h = background.source_px_from_target_px;
+    const auto one_by_one = [&](int x, int end_x, int y) {
+        for (; x + lanes <= end_x; x += lanes) resolve_unreached(d, input, h, x, y, out);
+        for (; x < end_x; ++x) resolve_unreached(d1, input, h, x, y, out);
+    };
     for (int y = target.first_px.y; y < target.end_px.y; ++y) {
         int x = target.first_px.x;
-        for (; x + lanes <= target.end_px.x; x += lanes) resolve_unreached(d, input, h, x, y, out);
-        for (; x < target.end_px.x; ++x) resolve_unreached(d1, input, h, x, y, out);
+        for (; x + kRun_px <= target.end_px.x; x += kRun_px) {
+            const std::optional<BackgroundRun> run = background_run(input, h, x, y);
+            if (!run || !show_background_run(d, input, h, *run, x, y, out)) one_by_one(x, x + kRun_px, y);
+        }
+        one_by_one(x, target.end_px.x, y);
     }
 }
 

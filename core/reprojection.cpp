@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "core/placement_check.h"
 
@@ -45,6 +46,9 @@ WideMatrix inverse_axes(const glm::dmat4& world_from_object) {
 // Both worlds are shifted to the source eye: positions near the eye stay small numbers however far the eye is from the
 // world's origin.
 glm::dmat4 motion_about(const glm::dvec3& origin_world, const glm::dmat4& at_source, const glm::dmat4& at_target) {
+    if (glm::dmat3{at_source} == glm::dmat3{at_target}) {  // it did not turn: nothing to invert, nothing to lose
+        return glm::translate(glm::dmat4{1.0}, glm::dvec3{at_target[3]} - glm::dvec3{at_source[3]});
+    }
     const WideVector origin{origin_world};
     const WideMatrix linear = WideMatrix{glm::dmat3{at_target}} * inverse_axes(at_source);
     const WideVector shift =

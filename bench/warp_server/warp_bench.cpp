@@ -1,11 +1,12 @@
 /// Time of every warp method and its preparation, beside a memcpy of the colour and depth they read; of two threads
-/// over one; and of the fills. GL methods are there where a GL context is.
+/// over one; of processors without AVX-512; and of the fills. GL methods are there where a GL context is.
 ///
 /// Frames take turns, as they do live: neither the copy nor the warp finds its source in the cache. Each time is the
 /// median of its repeats, taken in turns with the copies of the same run; memcpy_ratio is the quotient of the medians.
 /// CPU methods are first checked: a still head must show the source.
 
 #include <benchmark/benchmark.h>
+#include <hwy/targets.h>
 
 #include <algorithm>
 #include <chrono>
@@ -122,6 +123,13 @@ void warp(benchmark::State& state, const std::string& specification, const Camer
     state.counters["hole_fraction"] = hole_fraction(frames[0]);
 }
 
+// The work of a processor that knows AVX2 and nothing newer.
+void with_avx2(const std::function<void()>& work) {
+    hwy::SetSupportedTargetsForTest(HWY_AVX2);
+    work();
+    hwy::SetSupportedTargetsForTest(0);
+}
+
 void prepare(benchmark::State& state, const std::string& specification) {
     const auto method = checked_method(specification);
     measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(method->prepare(layers()[i])); });
@@ -203,6 +211,15 @@ void register_all() {
         }
     }
     add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });
+    const auto newer_than_avx2 = hwy::SupportedTargets() & (HWY_AVX2 - 1);
+    if (newer_than_avx2 != 0 && (hwy::SupportedTargets() & HWY_AVX2) != 0) {
+        for (const std::string name : {"splat", "surface"}) {
+            add("avx2/" + name, [name](benchmark::State& state) {
+                with_avx2([&] { warp(state, name, moved_head(layers()[0].camera)); });
+            });
+        }
+        add("avx2/prepare/surface", [](benchmark::State& state) { with_avx2([&] { prepare(state, "surface"); }); });
+    }
     for (const std::string name : {"nearest-background", "pyramid"}) {
         add("fill/" + name, [name](benchmark::State& state) { fill(state, name); });
     }

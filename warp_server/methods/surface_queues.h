@@ -98,6 +98,7 @@ private:
                              std::min(run.y[first], run.y[last]), linear);
         if (!is_short) linear = reader_.read(taps);
 #else
+        reader_.prefetch_below(hn::GetLane(taps.x), hn::GetLane(taps.y));
         linear = reader_.read(taps);
 #endif
         hn::Store(linear.red, DU{}, run.red);

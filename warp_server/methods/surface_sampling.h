@@ -76,6 +76,12 @@ public:
         }
     }
 
+    /// Asks for the values some rows below one of the image's, which the next runs of pixels read.
+    HWY_INLINE void prefetch_below(int column, int row) const {
+        const std::uint16_t* from = values_ + (row + kPrefetchRows) * row_stride_ + column;
+        for (std::ptrdiff_t channel = 0; channel < 3; ++channel) __builtin_prefetch(from + channel * channel_stride_);
+    }
+
     /// Bilinear colours at the taps, which may be anywhere.
     [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
         const auto channel = [&](int index) { return mixed(pairs_at(taps, index), taps.fx, taps.fy); };
@@ -93,6 +99,13 @@ public:
         constexpr int kBytes = 2;
         return {hn::VFromD<DU>{_mm512_i32gather_epi32(at.raw, values, kBytes)},
                 hn::VFromD<DU>{_mm512_i32gather_epi32(at.raw, values + row_stride_, kBytes)}};
+#elif HWY_TARGET == HWY_AVX2
+        const auto at = hn::Add(hn::Mul(taps.y, hn::Set(DI{}, static_cast<std::int32_t>(row_stride_))), taps.x);
+        constexpr int kBytes = 2;
+        const auto pairs_from = [&](const std::uint16_t* from) {
+            return hn::VFromD<DU>{_mm256_i32gather_epi32(reinterpret_cast<const int*>(from), at.raw, kBytes)};
+        };
+        return {pairs_from(values), pairs_from(values + row_stride_)};
 #else
         HWY_ALIGN std::int32_t x[kMaxLanes];
         HWY_ALIGN std::int32_t y[kMaxLanes];
@@ -125,9 +138,9 @@ public:
         // Entries of two rows lie in two vectors, so that bit 5 of a lookup says which row.
         const PairLookup at{hn::Add(column, hn::ShiftLeft<5>(below_first)), taps};
         const std::uint16_t* from = values_ + first_y * row_stride_ + first_x;
+        prefetch_below(first_x, first_y);
         const auto channel = [&](std::ptrdiff_t index) {
             const std::uint16_t* row0 = from + index * channel_stride_;
-            __builtin_prefetch(row0 + kPrefetchRows * row_stride_);
             const __m512i above = _mm512_loadu_si512(row0);
             const __m512i middle = _mm512_loadu_si512(row0 + row_stride_);
             const __m512i below = _mm512_loadu_si512(row0 + 2 * row_stride_);

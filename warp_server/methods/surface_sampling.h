@@ -171,14 +171,15 @@ public:
         const std::uint16_t* from = values_ + first_y * row_stride_ + first_x;
         const auto channel = [&](std::ptrdiff_t index) {
             const std::uint16_t* row0 = from + index * channel_stride_;
-            __m512i values[5];
-            for (std::ptrdiff_t i = 0; i < 5; ++i) values[i] = _mm512_loadu_si512(row0 + i * row_stride_);
-            const auto lookup = [&](int first) {
-                return _mm512_mask_blend_epi16(
-                    in_lower_two, _mm512_permutex2var_epi16(values[first], at.entry, values[first + 1]),
-                    _mm512_permutex2var_epi16(values[first + 2], at.entry, values[first + 3]));
+            const auto values = [&](std::ptrdiff_t line) { return _mm512_loadu_si512(row0 + line * row_stride_); };
+            const __m512i values1 = values(1);
+            const __m512i values2 = values(2);
+            const __m512i values3 = values(3);
+            const auto lookup = [&](__m512i upper0, __m512i upper1, __m512i lower0, __m512i lower1) {
+                return _mm512_mask_blend_epi16(in_lower_two, _mm512_permutex2var_epi16(upper0, at.entry, upper1),
+                                               _mm512_permutex2var_epi16(lower0, at.entry, lower1));
             };
-            return at.mixed(lookup(0), lookup(1));
+            return at.mixed(lookup(values(0), values1, values2, values3), lookup(values1, values2, values3, values(4)));
         };
         colours = {channel(0), channel(1), channel(2)};
         return true;

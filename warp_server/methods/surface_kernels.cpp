@@ -22,10 +22,10 @@ HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
 
-constexpr int kPrefetchRows = 3;   // blocks are narrow, so that the next rows come before this row's next lines
-constexpr int kFewColumnsPx = 12;  // fewer are drawn row by row no faster than one by one
-constexpr int kLongRowPx = 64;     // from here on finding out where a row begins and ends pays
-constexpr int kSmallBoxPx = 3;     // a cell's box is one to three pixels wide unless it is magnified
+constexpr int kPrefetchRows = 3;  // blocks are narrow, so that the next rows come before this row's next lines
+constexpr int kFewColumnsPx = 8;  // fewer are drawn row by row no faster than one by one
+constexpr int kLongRowPx = 64;    // from here on finding out where a row begins and ends pays
+constexpr int kSmallBoxPx = 3;    // a cell's box is one to three pixels wide unless it is magnified
 
 // How far the shares of pixels count: what stands still shows the source as it is.
 float share_trust(float moved_px) {

@@ -73,7 +73,7 @@ public:
     /// Work times, and growths, remembered: 3 s at 90 Hz, so that one disturbance is forgotten after that.
     static constexpr std::size_t kWindow = 256;
     /// Until this many are known the lead is kUnlearntLead of a period.
-    static constexpr std::size_t kEnough = 16;
+    static constexpr std::size_t kEnough = 8;
     static constexpr double kUnlearntLead = 0.8;
     /// So many growths in a hundred, but one at least, are left out as too large: disturbances come in threes and fours
     /// (the first pictures of all are one), and with 1 % kept the lead at a whole period for the three seconds after.

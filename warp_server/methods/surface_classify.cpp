@@ -215,7 +215,7 @@ constexpr float kCostPerPatch = 6.0F;
 constexpr float kCostPerTile = 55.0F;
 constexpr float kCostPerLonePixel = 3.5F;
 constexpr float kCostPerEdgeCell = 9.0F;
-constexpr float kNarrowColumns = 12.0F;  // kFewColumnsPx of the kernels
+constexpr float kNarrowColumns = 8.0F;  // kFewColumnsPx of the kernels
 
 // Adds up what each source row costs.
 class RowCosts {

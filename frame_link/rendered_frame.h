@@ -34,9 +34,10 @@ struct CpuPixels {
     /// True: the colour's alpha is the share of the pixel that its surface covers, 255 = all of it; what is next to it
     /// has the rest. So a warp knows where in a pixel an edge runs. False: alpha says nothing.
     bool alpha_is_share = false;
-    /// Empty, or twice the layer's size in each direction: the four quarters of every pixel, each in the colour that
-    /// the pixel's own surface has there (sRGB; alpha says nothing). `colour` is their mean, as far as the surface
-    /// reaches. A warp that reads between two pixels finds there what their means no longer tell.
+    /// Empty, or twice the layer's size in each direction: the four quarters of every pixel, each in the mean colour of
+    /// all that is seen there (sRGB). Where `alpha_is_share`, alpha is the share of the quarter that the pixel's own
+    /// surface covers. A warp that reads between two pixels finds there what their means no longer tell, and at edges
+    /// which part of a pixel is whose and how the rest of it looks.
     ColourImage quarters{};
 };
 

@@ -121,32 +121,31 @@ void main() {
         }
     }
 
+#ifndef QUARTERS
     vec3 colour = vec3(0.0);
     float off_plane = 0.0;
     float count = 0.0;
+#endif
     for (int i = 0; i < kSamples; ++i) {
         ivec2 offset = sample_of(ivec2(0), i) - sample_of(ivec2(0), median);
         float difference = depths[i] - depths[median] - dot(gradient, vec2(offset));
         // Background is flat: its tolerance is zero, and it is on no surface but its own.
         bool on_surface = ids[i] == ids[median] && (depths[i] > 0.0) == (depths[median] > 0.0) &&
                           abs(difference) <= kSameSurface * depths[median];
-        if (one_surface || on_surface) {
-            vec3 sample_colour = texelFetch(u_colour, sample_of(first, i), 0).rgb;
-            colour += sample_colour;
 #ifdef QUARTERS
-            if (sample_of(ivec2(0), i) / (SAMPLES / 2) == quarter) {
-                quarter_colour += sample_colour;
-                quarter_count += 1.0;
-            }
-#endif
+        if (sample_of(ivec2(0), i) / (SAMPLES / 2) != quarter) continue;
+        quarter_colour += texelFetch(u_colour, sample_of(first, i), 0).rgb;
+        quarter_count += on_surface ? 1.0 : 0.0;
+#else
+        if (one_surface || on_surface) {
+            colour += texelFetch(u_colour, sample_of(first, i), 0).rgb;
             off_plane += difference;
             count += 1.0;
         }
+#endif
     }
 #ifdef QUARTERS
-    // Where the surface has none of the quarter's samples, nobody will look for more than its mean.
-    vec3 shown = quarter_count > 0.0 ? quarter_colour / quarter_count : colour / count;
-    o_colour = vec4(srgb_from_linear(shown), 1.0);
+    o_colour = vec4(srgb_from_linear(quarter_colour * (4.0 / float(kSamples))), quarter_count * (4.0 / float(kSamples)));
 #else
     // The mean plane at the pixel's centre, wherever the samples on it lie: depth stays affine on planes.
     vec2 to_centre = 0.5 * float(SAMPLES - 1) - vec2(sample_of(ivec2(0), median));

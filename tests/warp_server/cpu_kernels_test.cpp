@@ -92,14 +92,25 @@ TEST(SurfaceMethod, EveryInstructionSetReadsQuartersTheSame) {
     Layer layer = scene.draw(source, 0.0);
     Camera twice = source;
     twice.size_px *= 2;
-    layer.cpu().quarters = scene.draw(twice, 0.0).cpu().colour;
-    const DisplayFrame best = warp_once("surface", layer, {target, movers});
+    CpuPixels& pixels = layer.cpu();
+    pixels.quarters = scene.draw(twice, 0.0).cpu().colour;
     InstructionSets sets;
-    for (const std::int64_t set : sets.all()) {
-        InstructionSets::use(set);
-        EXPECT_TRUE(same_pixels(warp_once("surface", layer, {target, movers}), best)) << hwy::TargetName(set);
+    for (const bool has_shares : {false, true}) {
+        pixels.alpha_is_share = has_shares;
+        for (std::size_t i = 0; has_shares && i < pixels.colour.pixels().size(); i += 3) {
+            const auto x = 2 * (static_cast<int>(i) % source.size_px.x);
+            const auto y = 2 * (static_cast<int>(i) / source.size_px.x);
+            pixels.colour.pixels()[i].a = 160;
+            pixels.quarters.at(x, y).a = 130;
+            pixels.quarters.at(x + 1, y).a = 0;
+        }
+        const DisplayFrame best = warp_once("surface", layer, {target, movers});
+        for (const std::int64_t set : sets.all()) {
+            InstructionSets::use(set);
+            EXPECT_TRUE(same_pixels(warp_once("surface", layer, {target, movers}), best)) << hwy::TargetName(set);
+        }
+        hwy::SetSupportedTargetsForTest(0);
     }
-    hwy::SetSupportedTargetsForTest(0);
 }
 
 TEST_P(VectorMethod, AnyNumberOfThreadsGivesTheSameBytes) {

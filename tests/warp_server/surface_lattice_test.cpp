@@ -74,7 +74,7 @@ TEST(SurfaceLattice, HoldsPixelsAtTheirCentresAndMeansOfTheirQuartersBetween) {
     fill(quarters);
     const LinearImage pixels{colour};
     const LinearImage fine{quarters};
-    const LinearImage lattice = lattice_between(pixels, quarters);
+    const LinearImage lattice = lattice_between(pixels, LinearImage{quarters});
     ASSERT_EQ(lattice.size_px(), glm::ivec2(6, 4));
     for (int channel = 0; channel < 3; ++channel) {
         for (int y = 0; y < 4; ++y) {

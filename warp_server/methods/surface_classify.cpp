@@ -5,9 +5,11 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "core/colour.h"
 #include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/surface_edge_lattice.h"
 #include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_links.h"
 #include "warp_server/methods/surface_shares.h"
@@ -296,7 +298,13 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     if (use == SurfaceUse::cpu_kernels) {
         prepared->linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
         if (pixels.quarters.size_px() == kLatticeSteps * prepared->size_px) {
-            prepared->lattice = lattice_between(prepared->linear, pixels.quarters);
+            LinearImage quarters{pixels.quarters};
+            if (pixels.alpha_is_share) {
+                QuarterParts parts{links, prepared->linear, quarters};
+                make_edge_lattices(parts, *prepared);
+                parts.join_for_lattice();
+            }
+            prepared->lattice = lattice_between(prepared->linear, std::move(quarters));
         }
         if (prepared->linear.has_alpha()) halve_lacks_of_thin_things(links, prepared->linear);
     }

@@ -31,6 +31,7 @@ struct PatchList {
     std::vector<float> bottom;
     std::vector<ObjectId> object_id;
     std::vector<std::uint8_t> corners;  ///< of an edge cell: bits 1 << corner of the pixels on this surface; else 15
+    std::vector<std::int32_t> edge_number;  ///< of edge cells, where they have lattices: which is theirs
 
     [[nodiscard]] std::size_t size() const { return x.size(); }
     void clear();
@@ -46,6 +47,8 @@ inline constexpr int kTileSize = 8;
 struct SurfaceTiles {
     PatchList surfaces;                ///< origins at the tiles' first cells; `corners` says nothing
     std::vector<std::uint32_t> cells;  ///< kTileSize rows each; of the cell in column c, 4 c bits up, its corners
+    /// kTileSize each, where edge cells have lattices: the number of the one in column c is c more.
+    std::vector<std::int32_t> edge_number;
     /// Where the edge cells of the tile end, relative to the origin: they overlap other tiles' less than whole cells.
     std::vector<float> edge_left;
     std::vector<float> edge_right;
@@ -68,12 +71,13 @@ struct PreparedSurface final : PreparedLayer {
     PatchList patches;   ///< small ones: where surfaces are curved, and around edges
     SurfaceTiles tiles;  ///< edges between planes, and what lies around them
     PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
-    std::vector<SurfaceRegion> regions;  ///< in the order of the lists: each begins where the one before ends
-    std::vector<RegionBounds> bounds;    ///< of each
-    LinearImage lattice;                 ///< with colours between pixels (lattice_between), or empty
-    LinearImage linear;                  ///< with the pixels' shares as alpha, where they are known
-    std::vector<IdCount> id_counts;      ///< by ascending id
-    std::vector<float> cost_until;       ///< estimated cost of drawing all patches before each source row, and of all
+    std::vector<SurfaceRegion> regions;        ///< in the order of the lists: each begins where the one before ends
+    std::vector<RegionBounds> bounds;          ///< of each
+    LinearImage lattice;                       ///< with colours between pixels (lattice_between), or empty
+    std::vector<std::uint16_t> edge_lattices;  ///< by edge cells' numbers (surface_edge_lattice.h), or empty
+    LinearImage linear;                        ///< with the pixels' shares as alpha, where they are known
+    std::vector<IdCount> id_counts;            ///< by ascending id
+    std::vector<float> cost_until;  ///< estimated cost of drawing all patches before each source row, and of all
 };
 
 /// What will draw the surfaces.

@@ -54,17 +54,22 @@ const LaneOffsets& lane_offsets() {
     return offsets;
 }
 
+// Of a tile's kTileSize rows the values of the rows `row`.
+HWY_INLINE hn::VFromD<DI> row_value(const std::int32_t* values, hn::VFromD<DI> row) {
+#if LW_HAS_WIDE_LOOKUPS
+    const hn::VFromD<DI> all{_mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)))};
+    return hn::TableLookupLanes(all, hn::IndicesFromVec(DI{}, row));
+#else
+    return hn::GatherIndex(DI{}, values, row);
+#endif
+}
+
 // The cells of a tile's surface (SurfaceTiles).
 struct TileCells {
     const std::uint32_t* rows;
 
     [[nodiscard]] HWY_INLINE hn::VFromD<DI> corners(hn::VFromD<DI> column, hn::VFromD<DI> row) const {
-#if LW_HAS_WIDE_LOOKUPS
-        const hn::VFromD<DI> all{_mm512_castsi256_si512(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(rows)))};
-        const auto cells = hn::TableLookupLanes(all, hn::IndicesFromVec(DI{}, row));
-#else
-        const auto cells = hn::GatherIndex(DI{}, reinterpret_cast<const std::int32_t*>(rows), row);
-#endif
+        const auto cells = row_value(reinterpret_cast<const std::int32_t*>(rows), row);
         const auto shift = hn::BitCast(DU{}, hn::ShiftLeft<2>(column));
         return hn::And(hn::BitCast(DI{}, hn::Shr(hn::BitCast(DU{}, cells), shift)), hn::Set(DI{}, kAllCorners));
     }
@@ -79,7 +84,7 @@ public:
           reader_{has_lattice(input) ? ColourReader{input.prepared->lattice, kLatticeSteps} : corner_reader_},
           runs_{reader_, encoder_, canvas.frame()},
           queue_{reader_, encoder_, runs_, canvas.frame()},
-          fragments_{corner_reader_, input.prepared->size_px, canvas},
+          fragments_{corner_reader_, edge_lattices(input), input.prepared->size_px, canvas},
           target_width_{canvas.frame().depth.width()},
           band_{target_width_, canvas.frame().depth.height(), canvas.band()},
           skips_{canvas.skips()},
@@ -127,6 +132,11 @@ private:
 
     [[nodiscard]] static bool has_lattice(const PatchInput& input) {
         return input.between_pixels && input.prepared->lattice.size_px().x > 0;
+    }
+
+    [[nodiscard]] static const std::uint16_t* edge_lattices(const PatchInput& input) {
+        const std::vector<std::uint16_t>& values = input.prepared->edge_lattices;
+        return has_lattice(input) && !values.empty() ? values.data() : nullptr;
     }
 
     // As many patches at once as there are lanes; `paint` gets those that have pixels here, object by object.
@@ -246,8 +256,10 @@ private:
                     queue_.push(inside, pixel, solved.depth, hn::Add(origin_x, solved.dx),
                                 hn::Add(origin_y, solved.dy));
                 } else {
-                    fragments_.push(inside, pixel, solved.depth, hn::ConvertTo(DI{}, origin_x),
-                                    hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, trusted(corners));
+                    const auto cell = fragments_.has_lattices() ? hn::LoadU(DI{}, list.edge_number.data() + first)
+                                                                : hn::ConvertTo(DI{}, origin_x);
+                    fragments_.push(inside, pixel, solved.depth, cell, hn::ConvertTo(DI{}, origin_y), solved.dx,
+                                    solved.dy, trusted(corners));
                 }
             }
         }
@@ -268,8 +280,10 @@ private:
             if (corners == kAllCorners) {
                 queue_.push(inside, pixel, solved.depth, hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy));
             } else {
-                fragments_.push(inside, pixel, solved.depth, hn::ConvertTo(DI{}, origin_x),
-                                hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy, trusted(hn::Set(DI{}, corners)));
+                const auto cell =
+                    fragments_.has_lattices() ? hn::Set(DI{}, list.edge_number[index]) : hn::ConvertTo(DI{}, origin_x);
+                fragments_.push(inside, pixel, solved.depth, cell, hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy,
+                                trusted(hn::Set(DI{}, corners)));
             }
         };
         solve_box(patch, lane, placed, push);
@@ -361,6 +375,8 @@ private:
         const VF origin_x = set(tiles.surfaces.x[index]);
         const VF origin_y = set(tiles.surfaces.y[index]);
         const TileCells cells{tiles.cells.data() + kTileSize * index};
+        const std::int32_t* edge_numbers =
+            fragments_.has_lattices() ? tiles.edge_number.data() + kTileSize * index : nullptr;
         const VF edge_left = set(tiles.edge_left[index]);
         const VF edge_right = set(tiles.edge_right[index]);
         const VF edge_top = set(tiles.edge_top[index]);
@@ -378,8 +394,9 @@ private:
             const auto in_columns = hn::And(hn::Ge(solved.dx, edge_left), hn::Le(solved.dx, edge_right));
             const auto in_rows = hn::And(hn::Ge(solved.dy, edge_top), hn::Le(solved.dy, edge_bottom));
             const auto fragment = hn::And(part, hn::And(in_columns, in_rows));
-            fragments_.push(fragment, pixel, solved.depth, hn::Add(hn::ConvertTo(DI{}, origin_x), cell_x),
-                            hn::Add(hn::ConvertTo(DI{}, origin_y), cell_y),
+            const auto cell = hn::Add(
+                edge_numbers != nullptr ? row_value(edge_numbers, cell_y) : hn::ConvertTo(DI{}, origin_x), cell_x);
+            fragments_.push(fragment, pixel, solved.depth, cell, hn::Add(hn::ConvertTo(DI{}, origin_y), cell_y),
                             hn::Sub(solved.dx, hn::ConvertTo(DF{}, cell_x)),
                             hn::Sub(solved.dy, hn::ConvertTo(DF{}, cell_y)), trusted(corners));
         };

@@ -1,13 +1,14 @@
 #include "warp_server/methods/surface_lattice.h"
 
+#include <cstddef>
 #include <vector>
 
 #include "warp_server/methods/linear_kernels.h"
 
 namespace lw {
 
-LinearImage lattice_between(const LinearImage& linear, const ColourImage& quarters) {
-    LinearImage lattice{quarters};
+LinearImage lattice_between(const LinearImage& linear, LinearImage quarters) {
+    LinearImage& lattice = quarters;
     const glm::ivec2 size = lattice.size_px();
     const auto columns = static_cast<std::size_t>(size.x);
     std::vector<std::uint16_t> last_row;  // below it, it counts again
@@ -22,7 +23,7 @@ LinearImage lattice_between(const LinearImage& linear, const ColourImage& quarte
                              has_centres ? linear.row(y / kLatticeSteps, channel) : nullptr);
         }
     }
-    return lattice;
+    return quarters;
 }
 
 }  // namespace lw

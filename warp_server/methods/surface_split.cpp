@@ -87,6 +87,9 @@ void split_tile(const SurfaceTiles& tiles, std::size_t index, PatchList& whole, 
             parts.bottom.push_back(std::min(1.0F + overlap.after_px, list.bottom[index] - from_y));
             parts.object_id.push_back(list.object_id[index]);
             parts.corners.push_back(corners);
+            if (is_whole || tiles.edge_number.empty()) continue;
+            const std::size_t in_tiles = index * static_cast<std::size_t>(kTileSize) + static_cast<std::size_t>(row);
+            parts.edge_number.push_back(tiles.edge_number[in_tiles] + column);
         }
     }
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "warp_server/methods/lanes.h"
+#include "warp_server/methods/surface_fragment_queue.h"
 #include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_placing.h"
 #include "warp_server/methods/surface_queues.h"

@@ -70,14 +70,16 @@ public:
     }
 
     static constexpr int kHitsPerMiss = 500;
-    /// Work times, and growths, remembered: 3 s at 90 Hz, so that one disturbance is forgotten after that.
-    static constexpr std::size_t kWindow = 256;
+    /// Work times, and growths, remembered: 6 s at 90 Hz, so that one disturbance is forgotten after that. Half as
+    /// many, and twice the share left out, missed 14 of 30,000 refreshes of recorded runs instead of 9: the largest
+    /// growths come once per frame of the client, as it begins to draw, and too few of them were kept.
+    static constexpr std::size_t kWindow = 512;
     /// Until this many are known the lead is kUnlearntLead of a period.
     static constexpr std::size_t kEnough = 8;
     static constexpr double kUnlearntLead = 0.8;
     /// So many growths in a hundred, but one at least, are left out as too large: disturbances come in threes and fours
-    /// (the first pictures of all are one), and with 1 % kept the lead at a whole period for the three seconds after.
-    static constexpr std::size_t kLeftOut_percent = 2;
+    /// (the first pictures of all are one), which must not keep the lead at a whole period.
+    static constexpr std::size_t kLeftOut_percent = 1;
 
 private:
     using Window = std::array<Duration, kWindow>;

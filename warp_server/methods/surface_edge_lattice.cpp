@@ -51,7 +51,7 @@ private:
     };
 
     [[nodiscard]] PixelPair pixel_pair(int x, int y, unsigned own_bits) const {
-        constexpr std::array<FourValues, 4> kMasks{0, 0xFFFFFFFFU, 0xFFFFFFFF00000000U, ~FourValues{0}};
+        static constexpr std::array<FourValues, 4> kMasks{0, 0xFFFFFFFFU, 0xFFFFFFFF00000000U, ~FourValues{0}};
         const bool is_last = x == last_px_.x;
         return {parts_->own().row(kLatticeSteps * y, 0) + kLatticeSteps * x, kMasks[own_bits], &parts_->shares(x, y),
                 &parts_->shares(is_last ? x : x + 1, y), is_last};

@@ -8,7 +8,6 @@
 #include "core/placement_check.h"
 #include "warp_server/hole_attribution.h"
 #include "warp_server/methods/registry.h"
-#include "warp_server/part_cover.h"
 
 namespace lw {
 namespace {
@@ -93,9 +92,9 @@ bool FrameWarper::begin(const RenderedFrame& frame, const WarpTarget& target) {
 
 void FrameWarper::finish() {
     if (!usable_layers_.empty()) {
-        open_partly_covered(display_frame_);
+        part_cover_->open(display_frame_);
         fill_->apply(display_frame_, fill_guide(usable_layers_.front()->camera, usable_.camera));
-        close_partly_covered(display_frame_);
+        part_cover_->close(display_frame_);
     } else if (display_frame_.colour.size_px() != usable_.camera.size_px) {
         show_nothing(usable_.camera.size_px, display_frame_);
     }

@@ -12,6 +12,7 @@
 #include "core/result.h"
 #include "warp_server/fill.h"
 #include "warp_server/layer_composition.h"
+#include "warp_server/part_cover.h"
 #include "warp_server/picture_maker.h"
 #include "warp_server/stepped_warp.h"
 #include "warp_server/warp_method.h"
@@ -21,7 +22,10 @@ namespace lw {
 class FrameWarper final : public PictureMaker {
 public:
     FrameWarper(std::unique_ptr<WarpMethod> method, std::unique_ptr<Fill> fill)
-        : method_{std::move(method)}, fill_{std::move(fill)}, stepped_{dynamic_cast<SteppedWarp*>(method_.get())} {
+        : method_{std::move(method)},
+          fill_{std::move(fill)},
+          part_cover_{std::make_unique<PartCover>(method_->threads())},
+          stepped_{dynamic_cast<SteppedWarp*>(method_.get())} {
         fill_->work_on(method_->threads());
     }
 
@@ -93,6 +97,7 @@ private:
 
     std::unique_ptr<WarpMethod> method_;
     std::unique_ptr<Fill> fill_;
+    std::unique_ptr<PartCover> part_cover_;
     SteppedWarp* stepped_;  ///< the method, where it has steps
     DisplayFrame display_frame_;
     Made made_;

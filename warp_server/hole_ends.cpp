@@ -8,6 +8,7 @@ namespace lw {
 namespace {
 
 constexpr int kNone = -1;
+constexpr int kBandsPerThread = 2;  // of rows: holes are not spread evenly
 
 int next_hole(const Coverage* coverage, int begin, int width) {
     const void* found =
@@ -35,31 +36,54 @@ void spread_sideways(std::span<std::int32_t> chosen) {
 
 void HoleEnds::find(const DisplayFrame& frame, TaskPool* threads) {
     width_ = frame.coverage.width();
-    collect_runs(frame);
+    frame_ = &frame;
+    collect_runs(threads);
     for (ColumnEnds* ends : {&above_, &below_}) {
         ends->row.resize(hole_count_);
         ends->depth.resize(hole_count_);
         ends->rows.resize(static_cast<std::size_t>(width_));
         ends->depths.resize(static_cast<std::size_t>(width_));
     }
-    frame_ = &frame;
     if (threads != nullptr && hole_count_ >= kWorthThreads) return threads->run(2, find_ends_);
     find_ends_above(frame);
     find_ends_below(frame);
 }
 
-void HoleEnds::collect_runs(const DisplayFrame& frame) {
+void HoleEnds::collect_runs(TaskPool* threads) {
+    const int tasks = threads == nullptr ? 1 : kBandsPerThread * threads->threads();
+    rows_.resize(static_cast<std::size_t>(tasks));
+    if (threads == nullptr) {
+        collect_rows_(0, 0);
+    } else {
+        threads->run(tasks, collect_rows_);
+    }
+    join_rows();
+}
+
+void HoleEnds::collect_runs(RowRange rows, Rows& into) const {
+    into.runs.clear();
+    into.hole_count = 0;
+    for (int y = rows.begin; y < rows.end; ++y) {
+        const Coverage* coverage = frame_->coverage.row(y).data();
+        for (int x = next_hole(coverage, 0, width_); x < width_;) {
+            HoleRun run{y, x, x, into.hole_count};
+            while (run.end < width_ && coverage[run.end] == Coverage::hole) ++run.end;
+            into.hole_count += static_cast<std::size_t>(run.end - run.begin);
+            x = next_hole(coverage, run.end, width_);
+            into.runs.push_back(run);
+        }
+    }
+}
+
+void HoleEnds::join_rows() {
     runs_.clear();
     hole_count_ = 0;
-    for (int y = 0; y < frame.coverage.height(); ++y) {
-        const Coverage* coverage = frame.coverage.row(y).data();
-        for (int x = next_hole(coverage, 0, width_); x < width_;) {
-            HoleRun run{y, x, x, hole_count_};
-            while (run.end < width_ && coverage[run.end] == Coverage::hole) ++run.end;
-            hole_count_ += static_cast<std::size_t>(run.end - run.begin);
-            x = next_hole(coverage, run.end, width_);
+    for (const Rows& rows : rows_) {
+        for (HoleRun run : rows.runs) {
+            run.first_hole += hole_count_;
             runs_.push_back(run);
         }
+        hole_count_ += rows.hole_count;
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include "core/task_pool.h"
 #include "warp_server/fill_kernels.h"
+#include "warp_server/methods/row_range.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
@@ -68,7 +69,15 @@ private:
         std::vector<float> depths;
     };
 
-    void collect_runs(const DisplayFrame& frame);
+    // Hole runs of some rows, and how many pixels they are.
+    struct Rows {
+        std::vector<HoleRun> runs;  // first_hole counts from the first of these
+        std::size_t hole_count = 0;
+    };
+
+    void collect_runs(TaskPool* threads);
+    void collect_runs(RowRange rows, Rows& into) const;
+    void join_rows();
     void find_ends_above(const DisplayFrame& frame);
     void find_ends_below(const DisplayFrame& frame);
     static void follow(const DisplayFrame& frame, const HoleRun& run, int beside, ColumnEnds& ends);
@@ -76,10 +85,15 @@ private:
     int width_ = 0;
     std::size_t hole_count_ = 0;
     std::vector<HoleRun> runs_;  // top row first
+    std::vector<Rows> rows_;     // by task: bands of the picture
     ColumnEnds above_;
     ColumnEnds below_;
     const DisplayFrame* frame_ = nullptr;
     // Kept, because making a function object may allocate.
+    TaskPool::Work collect_rows_ = [this](int task, int /*worker*/) {
+        const int height = frame_->coverage.height();
+        collect_runs(band_of_rows(height, task, static_cast<int>(rows_.size())), rows_[static_cast<std::size_t>(task)]);
+    };
     TaskPool::Work find_ends_ = [this](int task, int /*worker*/) {
         task == 0 ? find_ends_above(*frame_) : find_ends_below(*frame_);
     };

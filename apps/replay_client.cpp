@@ -3,11 +3,11 @@
 #include <memory>
 #include <utility>
 
-#include "apps/stopwatch.h"
 #include "client_renderer/hidden_layer.h"
 #include "client_renderer/layer_statistics.h"
 #include "client_renderer/reveal_margin.h"
 #include "client_renderer/shell_budget.h"
+#include "core/stopwatch.h"
 
 namespace lw {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "apps/parallel.h"
-#include "apps/stopwatch.h"
 #include "core/metrics.h"
+#include "core/stopwatch.h"
 
 namespace lw {
 

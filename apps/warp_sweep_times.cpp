@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "apps/progress.h"
-#include "apps/stopwatch.h"
 #include "apps/warp_sweep_run.h"
 #include "apps/warp_sweep_stage.h"
+#include "core/stopwatch.h"
 #include "warp_server/frame_warper.h"
 
 namespace lw {

@@ -212,6 +212,10 @@ TEST(SurfaceLinks, PlanesAreOneSurfaceAtAnySlant) {
     EXPECT_FALSE(on_one_surface(0.0F, 0.0F, 0.001F, 0.002F));     // the horizon
     EXPECT_TRUE(on_one_surface(0.0F, 0.0F, 0.0F, 0.0F));          // background
     EXPECT_FALSE(on_one_surface(0.02F, -1.0F, 0.02F, 0.02F));     // unusable
+    // A step that cannot be seen.
+    EXPECT_TRUE(on_one_surface(0.02F, 0.02F, 0.03F, 0.03F, 0.011F));
+    EXPECT_FALSE(on_one_surface(0.02F, 0.02F, 0.03F, 0.03F, 0.009F));
+    EXPECT_FALSE(on_one_surface(0.0F, 0.0F, 0.001F, 0.002F, 0.01F));  // the horizon stays one
 }
 
 TEST(SurfaceCells, CornersAreGroupedByTheirLinks) {
@@ -230,11 +234,35 @@ TEST(SurfaceCells, CornersAreGroupedByTheirLinks) {
 TEST(SurfaceClassify, AWallIsOneStripPerRowOfBlocksAndHasNoEdges) {
     const AnalyticScene scene = AnalyticScene::wall(3.0, 0.4);
     const Layer layer = scene.draw(street_camera({128, 128}), 0.0);
-    const auto prepared = classify_surfaces(layer.cpu());
+    const auto prepared = classify_surfaces(layer.cpu(), layer.camera);
     EXPECT_EQ(prepared->blocks.size(), 2U);
     EXPECT_EQ(prepared->tiles.surfaces.size(), 0U);
     EXPECT_EQ(prepared->patches.size(), 0U);
     EXPECT_EQ(prepared->edges.size(), 0U);
+}
+
+// A layer that looks at a wall whose every other row stands out by `relief_m`.
+Layer ribbed_wall(double distance_m, double relief_m, ObjectId id) {
+    Layer layer = AnalyticScene::wall(distance_m, 0.4).draw(street_camera({128, 128}), 0.0);
+    CpuPixels& pixels = layer.cpu();
+    const auto depth_at = [&](double metres) { return static_cast<float>(layer.camera.near_m / metres); };
+    for (int y = 0; y < 128; ++y) {
+        const float depth = depth_at(y % 2 == 0 ? distance_m : distance_m - relief_m);
+        for (int x = 0; x < 128; ++x) {
+            pixels.depth.at(x, y) = depth;
+            pixels.object_id.at(x, y) = id;
+        }
+    }
+    return layer;
+}
+
+// 1 / 19.9 m less 1 / 20 m, times 64 pixels per tangent and 10 cm, is 0.0016 px; from 1 to 0.9 m it is 0.7 px.
+TEST(SurfaceClassify, ReliefThatCannotBeSeenIsOnePlaneUnlessItMayTurn) {
+    const auto prepared = [](const Layer& layer) { return classify_surfaces(layer.cpu(), layer.camera); };
+    EXPECT_EQ(prepared(ribbed_wall(20.0, 0.1, 0))->blocks.size(), 2U);
+    EXPECT_EQ(prepared(ribbed_wall(20.0, 0.1, 0))->patches.size(), 0U);
+    EXPECT_EQ(prepared(ribbed_wall(1.0, 0.1, 0))->blocks.size(), 0U);
+    EXPECT_GT(prepared(ribbed_wall(20.0, 0.1, 7))->patches.size(), 1000U);
 }
 
 }  // namespace

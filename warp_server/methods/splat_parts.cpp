@@ -100,25 +100,16 @@ int SplatParts::panels_for(const SplatReach& reach) {
 void SplatParts::add_panel(const SplatReach& reach, const SplatTiles& tiles, RowRange columns, int count) {
     const int height = reach.target_size_px().y;
     const PixelRect panel{{columns.begin, 0}, {columns.end, height}};
-    std::vector<float>& cost = cost_until_;
-    cost.assign(static_cast<std::size_t>(height) + 1, 0.0F);  // first by how much rows cost more than the one before
+    row_costs_.begin(height, kCostOfPixel * static_cast<float>(columns.end - columns.begin));
     for (int band = 0; band < reach.bands(); ++band) {
         for (int tile = 0; tile < reach.tiles_per_band(); ++tile) {
             const PixelRect here = common(reach.rect_of(band, tile), panel);
             if (here.empty()) continue;
-            const float of_row =
-                kCostOfPoint * static_cast<float>(tiles.points_of(band, tile)) / static_cast<float>(here.size_px().y);
-            cost[static_cast<std::size_t>(here.first_px.y)] += of_row;
-            cost[static_cast<std::size_t>(here.end_px.y)] -= of_row;
+            row_costs_.add({here.first_px.y, here.end_px.y},
+                           kCostOfPoint * static_cast<float>(tiles.points_of(band, tile)));
         }
     }
-    float of_row = kCostOfPixel * static_cast<float>(columns.end - columns.begin);
-    float until = 0.0F;
-    for (float& entry : cost) {
-        of_row += entry;
-        entry = until;
-        until += of_row;
-    }
+    const std::span<const float> cost = row_costs_.until();
 
     for (int i = 0; i < count; ++i) {
         const RowRange rows = band_of_cost(cost, i, count);

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "warp_server/methods/row_range.h"
+#include "warp_server/methods/row_costs.h"
 #include "warp_server/methods/splat_reach.h"
 #include "warp_server/methods/splat_tiles.h"
 #include "warp_server/pixel_rect.h"
@@ -69,7 +69,7 @@ private:
     std::vector<PixelRect> rects_;
     std::vector<PixelRect> unordered_;
     std::vector<Cost> costs_;
-    std::vector<float> cost_until_;  // by row of a panel
+    RowCosts row_costs_;  // of a panel
 };
 
 }  // namespace lw

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/stopwatch.h"
 #include "core/task_pool.h"
+#include "warp_server/methods/band_balance.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_canvas.h"
 #include "warp_server/methods/surface_classify.h"
+#include "warp_server/methods/surface_costs.h"
 #include "warp_server/methods/surface_kernels.h"
 #include "warp_server/methods/surface_split.h"
 #include "warp_server/stepped_warp.h"
@@ -21,6 +24,9 @@ namespace {
 // finer than the target's pixels. (Density 2 with 2x2 samples: FLIP 0.0264 with the lattice, 0.0222 without; density 1:
 // 0.0245 and 0.0337.)
 constexpr double kDensestForLattice = 1.4;
+
+// Emptying a pixel and saying whether it was reached, in pixels of a large block, as surface_costs.h counts.
+constexpr float kCostPerTargetPixel = 0.2F;
 
 double pixels_per_tangent(const Camera& camera) { return camera.size_px.x / (camera.fov.right - camera.fov.left); }
 
@@ -46,6 +52,7 @@ public:
         next_layer_ = 0;
         next_region_ = 0;
         is_empty_ = base == StackBase::nothing;
+        drawing_ms_ = 0.0;
     }
 
     void begin_nothing() { layers_ = {}; }
@@ -53,26 +60,33 @@ public:
     // Draws the next region; false when all layers were drawn.
     bool step() {
         if (next_layer_ == layers_.size()) return false;
-        const PaintedLayer& layer = layers_[next_layer_];
-        if (next_region_ > 0 || is_empty_ || may_show(layer)) {
-            const PreparedSurface& prepared = *layer.input.prepared;
-            const SurfaceRegion begin = next_region_ == 0 ? SurfaceRegion{} : prepared.regions[next_region_ - 1];
-            const SurfaceRegion& end = prepared.regions[next_region_];
-            if (may_show(layer, prepared.bounds[next_region_], begin, end)) draw_region(layer.input, begin, end);
-            if (++next_region_ < prepared.regions.size()) return true;
-            if (layers_.size() > 1) canvas_.finish_layer();
-            is_empty_ = false;
-        }
-        next_region_ = 0;
-        if (++next_layer_ == layers_.size()) canvas_.finish();
+        const Stopwatch drawing;
+        draw_next();
+        drawing_ms_ += drawing.ms();
         return true;
     }
 
     /// Of the last picture.
     [[nodiscard]] const SurfaceSkips& skips() const { return canvas_.skips(); }
     [[nodiscard]] const std::vector<PartlyCovered>& partly_covered() const { return canvas_.partly_covered(); }
+    [[nodiscard]] double drawing_ms() const { return drawing_ms_; }
 
 private:
+    void draw_next() {
+        const PaintedLayer& layer = layers_[next_layer_];
+        if (next_region_ > 0 || is_empty_ || may_show(layer)) {
+            const PreparedSurface& prepared = *layer.input.prepared;
+            const SurfaceRegion begin = next_region_ == 0 ? SurfaceRegion{} : prepared.regions[next_region_ - 1];
+            const SurfaceRegion& end = prepared.regions[next_region_];
+            if (may_show(layer, prepared.bounds[next_region_], begin, end)) draw_region(layer.input, begin, end);
+            if (++next_region_ < prepared.regions.size()) return;
+            if (layers_.size() > 1) canvas_.finish_layer();
+            is_empty_ = false;
+        }
+        next_region_ = 0;
+        if (++next_layer_ == layers_.size()) canvas_.finish();
+    }
+
     // Is anything in the layer's reach empty, or farther than all of the layer?
     [[nodiscard]] bool may_show(const PaintedLayer& layer) const {
         const auto columns = static_cast<std::size_t>(std::max(layer.reach.size_px().x, 0));
@@ -151,6 +165,7 @@ private:
     std::size_t next_layer_ = 0;
     std::size_t next_region_ = 0;  // of it
     bool is_empty_ = true;         // nothing is in the picture yet
+    double drawing_ms_ = 0.0;
     std::vector<std::uint32_t> behind_;
     PatchList parts_;
     PatchList smaller_parts_;
@@ -165,7 +180,7 @@ public:
     [[nodiscard]] TaskPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
-        return classify_surfaces(checked_cpu_pixels(layer));
+        return classify_surfaces(checked_cpu_pixels(layer), layer.camera);
     }
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
@@ -196,7 +211,7 @@ public:
         }
         bands_.resize(static_cast<std::size_t>(bands));
         painters_.resize(bands_.size());
-        place_bands(layers.front().layer->camera, target.camera, *layers_.front().input.prepared);
+        place_bands(target.camera.size_px);
         for (std::size_t i = 0; i < bands_.size(); ++i) {
             if (to_paint_.empty()) {
                 painters_[i].begin_nothing();
@@ -211,13 +226,16 @@ public:
     void finish_stack() override {
         own_.clear();
         if (to_paint_.empty()) return;
+        band_times_.clear();
         for (const BandPainter& painter : painters_) {
+            band_times_.push_back(painter.drawing_ms());
             counters_.tiles_empty += painter.skips().empty;
             counters_.tiles_outside += painter.skips().outside;
             counters_.tiles_hidden += painter.skips().hidden;
             const std::vector<PartlyCovered>& partly = painter.partly_covered();
             out_->partly_covered.insert(out_->partly_covered.end(), partly.begin(), partly.end());
         }
+        balance_.learn(band_times_);
     }
 
 private:
@@ -238,22 +256,14 @@ private:
         }
     }
 
-    // Bands of the source that cost the same, moved to where their middles land when the head only turns: near enough
-    // for sharing work, and the picture does not depend on it.
-    void place_bands(const Camera& source, const Camera& target, const PreparedSurface& prepared) {
-        const int count = static_cast<int>(bands_.size());
-        const glm::mat3 source_from_target = background_source_from_target(source, target);
-        const glm::mat3 target_from_source = glm::inverse(source_from_target);
-        const int height = target.size_px.y;
-        for (int i = 0; i < count; ++i) {
-            const RowRange rows = band_of_cost(prepared.cost_until, i, count);
-            const glm::vec3 place = target_from_source * glm::vec3{0.5F * static_cast<float>(source.size_px.x),
-                                                                   static_cast<float>(rows.end), 1.0F};
-            const bool usable = place.z > 0.0F && std::abs(place.y) < 1e6F * place.z;
-            const int previous = i == 0 ? 0 : bands_[static_cast<std::size_t>(i) - 1].end;
-            const int end = usable ? std::clamp(static_cast<int>(place.y / place.z), previous, height) : previous;
-            bands_[static_cast<std::size_t>(i)] = {previous, i + 1 == count ? height : end};
+    // The picture does not depend on where they meet.
+    void place_bands(glm::ivec2 target_size_px) {
+        row_costs_.begin(target_size_px.y, kCostPerTargetPixel * static_cast<float>(target_size_px.x));
+        for (const PaintedLayer& layer : to_paint_) {
+            const PixelMatrix* matrix = layer.input.matrices->find(0);
+            if (matrix != nullptr) add_costs(*layer.input.prepared, *matrix, target_size_px, row_costs_);
         }
+        balance_.cut(row_costs_.until(), bands_);
     }
 
     // Nothing moves: the source, bit for bit.
@@ -276,6 +286,9 @@ private:
     TaskPool pool_;
     std::vector<BandPainter> painters_;  // by band
     std::vector<RowRange> bands_;
+    RowCosts row_costs_;
+    BandBalance balance_;  // of whole pictures
+    std::vector<double> band_times_;
 
     // Of the picture being drawn.
     std::vector<std::shared_ptr<const PreparedLayer>> own_;  // what was not prepared before

@@ -9,6 +9,7 @@
 
 #include "core/colour.h"
 #include "warp_server/methods/object_matrices.h"
+#include "warp_server/methods/surface_costs.h"
 #include "warp_server/methods/surface_edge_lattice.h"
 #include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_links.h"
@@ -28,8 +29,6 @@ constexpr int kFirstBlock = kTileSize;
 // Of the largest patches side by side: a region whose source and target are together 220 KiB.
 constexpr int kRegionBlocks = 4;
 constexpr std::size_t kMostLanes = 16;  // floats in the widest vector
-
-bool depths_agree(float depth, float expected) { return std::abs(depth - expected) <= kPlaneDepthPart * depth; }
 
 // Cuts the image into the largest blocks that are planes, and into cells where surfaces meet.
 class PatchBuilder {
@@ -148,7 +147,7 @@ private:
         if (part.id != plane.id) return false;
         const glm::ivec2 reach = glm::min(glm::ivec2{size}, size_px_ - 1 - glm::ivec2{x, y} - offset);
         const auto agree_at = [&](int dx, int dy) {
-            return depths_agree(part.at(dx, dy), plane.at(offset.x + dx, offset.y + dy));
+            return depths_agree(plane.id, part.at(dx, dy), plane.at(offset.x + dx, offset.y + dy));
         };
         return agree_at(0, 0) && agree_at(reach.x, 0) && agree_at(0, reach.y) && agree_at(reach.x, reach.y);
     }
@@ -180,9 +179,13 @@ private:
         const int rows = std::min(size, size_px_.y - 1 - y) + 1;
         // It goes through three corners: where it is none, the fourth most often says so.
         const float last = links_->depth_of(plane.id, x + columns - 1, y + rows - 1);
-        if (!depths_agree(last, plane.at(columns - 1, rows - 1))) return false;
-        return block_is_plane(links_->pixels(),
-                              {x, y, columns, rows, plane.id, plane.depth, plane.gradient_x, plane.gradient_y});
+        if (!depths_agree(plane.id, last, plane.at(columns - 1, rows - 1))) return false;
+        return block_is_plane(links_->pixels(), {x, y, columns, rows, plane.id, plane.depth, plane.gradient_x,
+                                                 plane.gradient_y, links_->tolerance(plane.id, kPlaneDepthPart)});
+    }
+
+    [[nodiscard]] bool depths_agree(ObjectId id, float depth, float expected) const {
+        return std::abs(depth - expected) <= links_->tolerance(id, kPlaneDepthPart).at(depth);
     }
 
     // Does no surface meet another in the block?
@@ -211,67 +214,6 @@ private:
     int strip_y_ = 0;
 };
 
-// Of drawing, in pixels of a large block, whose colours are read by the run; measured by functions' shares of the time
-// with 1000 movers. Pixels of narrow pieces are read one by one.
-constexpr float kCostPerPatch = 6.0F;
-constexpr float kCostPerTile = 55.0F;
-constexpr float kCostPerLonePixel = 3.5F;
-constexpr float kCostPerEdgeCell = 9.0F;
-constexpr float kNarrowColumns = 8.0F;  // kFewColumnsPx of the kernels
-
-// Adds up what each source row costs.
-class RowCosts {
-public:
-    explicit RowCosts(int rows) : until_(static_cast<std::size_t>(rows) + 1, 0.0F) {}
-
-    void add_patches(const PatchList& list) {
-        for (std::size_t i = 0; i < list.size(); ++i) {
-            const float per_pixel = list.right[i] < kNarrowColumns ? kCostPerLonePixel : 1.0F;
-            const float rows = std::max(1.0F, list.bottom[i]);
-            add(list.y[i], rows, kCostPerPatch / rows + per_pixel * list.right[i]);
-        }
-    }
-    void add_edges(const PatchList& list) {
-        for (std::size_t i = 0; i < list.size(); ++i) add(list.y[i], 1.0F, kCostPerPatch + kCostPerEdgeCell);
-    }
-    void add_tiles(const SurfaceTiles& tiles) {
-        for (std::size_t i = 0; i < tiles.surfaces.size(); ++i) {
-            for (std::size_t row = 0; row < static_cast<std::size_t>(kTileSize); ++row) {
-                const std::uint32_t cells = tiles.cells[i * static_cast<std::size_t>(kTileSize) + row];
-                constexpr std::uint32_t kFirstOfFour = 0x11111111;
-                const int whole = std::popcount(cells & cells >> 1U & cells >> 2U & cells >> 3U & kFirstOfFour);
-                const int any = std::popcount((cells | cells >> 1U | cells >> 2U | cells >> 3U) & kFirstOfFour);
-                add(tiles.surfaces.y[i] + static_cast<float>(row), 1.0F,
-                    kCostPerTile / kTileSize + kCostPerLonePixel * static_cast<float>(whole) +
-                        kCostPerEdgeCell * static_cast<float>(any - whole));
-            }
-        }
-    }
-
-    [[nodiscard]] std::vector<float> until() && {
-        for (std::size_t y = 1; y < until_.size(); ++y) until_[y] += until_[y - 1];
-        return std::move(until_);
-    }
-
-private:
-    void add(float y, float rows, float per_row) {
-        const auto begin = static_cast<std::size_t>(y);
-        const std::size_t end = std::min(begin + static_cast<std::size_t>(rows), until_.size() - 1);
-        for (std::size_t row = begin; row < end; ++row) until_[row + 1] += per_row;
-    }
-
-    std::vector<float> until_;
-};
-
-std::vector<float> accumulated_costs(const PreparedSurface& prepared) {
-    RowCosts costs{prepared.size_px.y};
-    costs.add_patches(prepared.blocks);
-    costs.add_patches(prepared.patches);
-    costs.add_tiles(prepared.tiles);
-    costs.add_edges(prepared.edges);
-    return std::move(costs).until();
-}
-
 }  // namespace
 
 void PatchList::clear() { *this = {}; }
@@ -284,7 +226,8 @@ void PatchList::reserve(std::size_t count) {
     corners.reserve(count);
 }
 
-std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, SurfaceUse use) {
+std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, const Camera& source,
+                                                         SurfaceUse use) {
     auto prepared = std::make_shared<PreparedSurface>();
     prepared->size_px = pixels.depth.size_px();
     // Enough for most pictures; memory that is not written to costs nothing.
@@ -293,7 +236,7 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     prepared->edges.reserve(pixel_count / 16);
     prepared->tiles.surfaces.reserve(pixel_count / 32);
     prepared->tiles.cells.reserve(pixel_count / 32 * static_cast<std::size_t>(kTileSize));
-    const SurfaceLinks links{pixels};
+    const SurfaceLinks links{pixels, source};
     PatchBuilder{links, *prepared}.build();
     if (use == SurfaceUse::cpu_kernels) {
         prepared->linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
@@ -310,7 +253,7 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     }
     prepared->id_counts = count_ids(pixels);
     prepared->bounds = bounds_of_regions(*prepared);
-    prepared->cost_until = accumulated_costs(*prepared);
+    prepared->region_costs = costs_of_regions(*prepared);
     return prepared;
 }
 

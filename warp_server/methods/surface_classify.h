@@ -73,11 +73,11 @@ struct PreparedSurface final : PreparedLayer {
     PatchList edges;  ///< single cells in which surfaces meet, one entry per surface: cover by their corners' weights
     std::vector<SurfaceRegion> regions;        ///< in the order of the lists: each begins where the one before ends
     std::vector<RegionBounds> bounds;          ///< of each
+    std::vector<float> region_costs;           ///< of each: estimated, of drawing it (surface_costs.h)
     LinearImage lattice;                       ///< with colours between pixels (lattice_between), or empty
     std::vector<std::uint16_t> edge_lattices;  ///< by edge cells' numbers (surface_edge_lattice.h), or empty
     LinearImage linear;                        ///< with the pixels' shares as alpha, where they are known
     std::vector<IdCount> id_counts;            ///< by ascending id
-    std::vector<float> cost_until;  ///< estimated cost of drawing all patches before each source row, and of all
 };
 
 /// What will draw the surfaces.
@@ -87,12 +87,13 @@ enum class SurfaceUse {
 };
 
 /// Any thread. `pixels` may hold bad depths: they are on no surface.
-[[nodiscard]] std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels,
+[[nodiscard]] std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, const Camera& source,
                                                                        SurfaceUse use = SurfaceUse::cpu_kernels);
 
 /// Depths `before, a, b, after` along a line: do a and b lie on one surface? Their difference must be small, or
 /// continue the slope on one side: depth is affine in the pixel coordinates on every plane, at any slant. Negative
 /// depths are on no surface; background (0) is its own.
-[[nodiscard]] bool on_one_surface(float before, float a, float b, float after);
+/// @param unseen_step  a difference that is small at any depth (unseen_depth_step)
+[[nodiscard]] bool on_one_surface(float before, float a, float b, float after, float unseen_step = 0.0F);
 
 }  // namespace lw

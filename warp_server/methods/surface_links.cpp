@@ -58,11 +58,11 @@ void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
 
 // on_one_surface for Lanes(d) pixels a whose neighbours b follow. Depths of other objects than a's count as -1.
 template <class D, class V = hn::Vec<D>>
-auto linked(D d, V before, V a, V b, V after) {
+auto linked(D d, V before, V a, V b, V after, V unseen) {
     const V zero = hn::Zero(d);
     const V step = hn::Sub(b, a);
     const V size = hn::Abs(step);
-    const auto level = hn::Le(size, hn::Mul(hn::Set(d, kLevelDepthPart), hn::Min(a, b)));
+    const auto level = hn::Le(size, hn::Max(unseen, hn::Mul(hn::Set(d, kLevelDepthPart), hn::Min(a, b))));
     const V allowed = hn::Mul(hn::Set(d, kSlopeChangePart), size);
     const auto like_before = hn::And(hn::Gt(before, zero), hn::Le(hn::Abs(hn::Sub(step, hn::Sub(a, before))), allowed));
     const auto like_after = hn::And(hn::Gt(after, zero), hn::Le(hn::Abs(hn::Sub(step, hn::Sub(after, b))), allowed));
@@ -73,7 +73,7 @@ auto linked(D d, V before, V a, V b, V after) {
 }
 
 void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& below, const PaddedRow& second_below,
-              int width, std::uint8_t* out) {
+              int width, float unseen_step, std::uint8_t* out) {
     const hn::ScalableTag<float> d;
     const hn::RebindToSigned<decltype(d)> di;
     const hn::Rebind<std::uint8_t, decltype(d)> d8;
@@ -87,10 +87,12 @@ void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& be
             return hn::IfThenElse(same, hn::LoadU(d, row.depth.data() + at + offset), hn::Set(d, -1.0F));
         };
         const auto own = hn::LoadU(d, here.depth.data() + at);
-        const auto to_right =
-            linked(d, depth_of_own_object(here, -1), own, depth_of_own_object(here, 1), depth_of_own_object(here, 2));
+        const auto stands_still = hn::RebindMask(d, hn::Eq(id, hn::Zero(di)));
+        const auto unseen = hn::IfThenElseZero(stands_still, hn::Set(d, unseen_step));
+        const auto to_right = linked(d, depth_of_own_object(here, -1), own, depth_of_own_object(here, 1),
+                                     depth_of_own_object(here, 2), unseen);
         const auto down = linked(d, depth_of_own_object(above, 0), own, depth_of_own_object(below, 0),
-                                 depth_of_own_object(second_below, 0));
+                                 depth_of_own_object(second_below, 0), unseen);
         const auto bits = hn::Or(hn::IfThenElseZero(hn::RebindMask(di, to_right), hn::Set(di, 1)),
                                  hn::IfThenElseZero(hn::RebindMask(di, down), hn::Set(di, 2)));
         if (x + lanes <= width) {
@@ -102,7 +104,7 @@ void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& be
     }
 }
 
-void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links) {
+void link_image(const CpuPixels& pixels, float unseen_step, Image<std::uint8_t>& links) {
     const int height = pixels.depth.height();
     PaddedRow rows[4];  // y - 1, y, y + 1, y + 2, by y % 4
     const auto row = [&](int y) -> PaddedRow& {
@@ -111,14 +113,14 @@ void link_image(const CpuPixels& pixels, Image<std::uint8_t>& links) {
     for (int y = 0; y < std::min(2, height); ++y) fill_row(pixels, y, row(y));
     for (int y = 0; y < height; ++y) {
         if (y + 2 < height) fill_row(pixels, y + 2, row(y + 2));
-        link_row(row(y - 1), row(y), row(y + 1), row(y + 2), links.width(), links.row(y).data());
+        link_row(row(y - 1), row(y), row(y + 1), row(y + 2), links.width(), unseen_step, links.row(y).data());
     }
 }
 
 // One pixel of a block against its plane.
 bool is_on_plane(const CpuPixels& pixels, const BlockToTest& block, std::size_t at, float expected) {
     const float depth = pixels.depth.pixels()[at];
-    return is_usable_depth(depth) && std::abs(depth - expected) <= block.tolerance * depth &&
+    return is_usable_depth(depth) && std::abs(depth - expected) <= block.tolerance.at(depth) &&
            pixels.object_id.pixels()[at] == block.id;
 }
 
@@ -145,8 +147,9 @@ HWY_INLINE std::uint32_t on_plane(D d, const CpuPixels& pixels, const BlockToTes
     const auto depth = hn::LoadU(d, pixels.depth.pixels().data() + at);
     const auto id = hn::PromoteTo(di, hn::LoadU(d16, pixels.object_id.pixels().data() + at));
     const auto off = hn::Abs(hn::Sub(depth, hn::Add(hn::Set(d, first_depth), step)));
-    // Nothing else need be asked: a negative depth allows nothing, and one above 1 or NaN fails below.
-    auto on = hn::And(hn::Le(off, hn::Mul(hn::Set(d, block.tolerance), depth)), hn::Le(depth, hn::Set(d, 1.0F)));
+    const auto allowed = hn::Max(hn::Mul(hn::Set(d, block.tolerance.part), depth), hn::Set(d, block.tolerance.step));
+    const auto usable = hn::And(hn::Ge(depth, hn::Zero(d)), hn::Le(depth, hn::Set(d, 1.0F)));
+    auto on = hn::And(hn::Le(off, allowed), usable);
     on = hn::And(on, hn::RebindMask(d, hn::Eq(id, hn::Set(di, std::int32_t{block.id}))));
     return bits_of(d, on) & ((1U << asked) - 1U);
 }
@@ -192,9 +195,10 @@ void plane_members(const CpuPixels& pixels, const BlockToTest& block, std::uint1
     HWY_DYNAMIC_DISPATCH(plane_members_here)(pixels, block, rows);
 }
 
-SurfaceLinks::SurfaceLinks(const CpuPixels& pixels) : pixels_{&pixels} {
+SurfaceLinks::SurfaceLinks(const CpuPixels& pixels, const Camera& source)
+    : pixels_{&pixels}, unseen_step_{unseen_depth_step(source)} {
     to_right_and_down_.resize(pixels.depth.size_px());
-    HWY_DYNAMIC_DISPATCH(link_image)(pixels, to_right_and_down_);
+    HWY_DYNAMIC_DISPATCH(link_image)(pixels, unseen_step_, to_right_and_down_);
 }
 
 bool SurfaceLinks::diagonal(int x, int y, int step_x) const {
@@ -207,7 +211,7 @@ bool SurfaceLinks::diagonal(int x, int y, int step_x) const {
         const glm::ivec2 at = inside(x + steps * step_x, y + steps);
         return depth_of(id, at.x, at.y);
     };
-    return on_one_surface(depth_along(-1), depth_along(0), depth_along(1), depth_along(2));
+    return on_one_surface(depth_along(-1), depth_along(0), depth_along(1), depth_along(2), unseen_step(id));
 }
 
 std::uint8_t SurfaceLinks::all_links(int x, int y) const {
@@ -217,12 +221,12 @@ std::uint8_t SurfaceLinks::all_links(int x, int y) const {
     return static_cast<std::uint8_t>(links);
 }
 
-bool on_one_surface(float before, float a, float b, float after) {
+bool on_one_surface(float before, float a, float b, float after, float unseen_step) {
     if (a < 0.0F || b < 0.0F) return false;
     if (a == 0.0F || b == 0.0F) return a == b;
     const float step = b - a;
     const float size = std::abs(step);
-    if (size <= kLevelDepthPart * std::min(a, b)) return true;
+    if (size <= DepthTolerance{kLevelDepthPart, unseen_step}.at(std::min(a, b))) return true;
     const float allowed = kSlopeChangePart * size;
     const bool like_before = before > 0.0F && std::abs(step - (a - before)) <= allowed;
     const bool like_after = after > 0.0F && std::abs(step - (after - b)) <= allowed;

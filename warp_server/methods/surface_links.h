@@ -25,7 +25,8 @@ enum CellLink : std::uint8_t {
 class SurfaceLinks {
 public:
     /// Any thread; `pixels` must outlive this.
-    explicit SurfaceLinks(const CpuPixels& pixels);
+    /// @param source  that they were drawn for
+    SurfaceLinks(const CpuPixels& pixels, const Camera& source);
 
     [[nodiscard]] glm::ivec2 size_px() const { return to_right_and_down_.size_px(); }
     [[nodiscard]] const CpuPixels& pixels() const { return *pixels_; }
@@ -46,6 +47,10 @@ public:
     /// Sides and diagonals.
     [[nodiscard]] std::uint8_t all_links(int x, int y) const;
 
+    /// How far off a plane of object `id` pixels may lie, where `part` of their depth would be seen: neighbours may lie
+    /// on both sides of it, and are linked then.
+    [[nodiscard]] DepthTolerance tolerance(ObjectId id, float part) const { return {part, 0.5F * unseen_step(id)}; }
+
     /// Depth for a surface of object `id`, negative where the pixel, which lies in the image, is of another object or
     /// its depth is unusable.
     [[nodiscard]] float depth_of(ObjectId id, int x, int y) const {
@@ -55,8 +60,10 @@ public:
 
 private:
     [[nodiscard]] bool diagonal(int x, int y, int step_x) const;
+    [[nodiscard]] float unseen_step(ObjectId id) const { return id == 0 ? unseen_step_ : 0.0F; }
 
     const CpuPixels* pixels_;
+    float unseen_step_;  // of what stands still
     Image<std::uint8_t> to_right_and_down_;
 };
 
@@ -70,7 +77,7 @@ struct BlockToTest {
     float depth = 0.0F;  ///< at the first pixel
     float gradient_x = 0.0F;
     float gradient_y = 0.0F;
-    float tolerance = kPlaneDepthPart;  ///< how far off the plane a pixel may be, as a part of its depth
+    DepthTolerance tolerance;  ///< how far off the plane a pixel may be
 };
 /// Are all pixels of the block, which lies in the image, of its object and on its plane?
 [[nodiscard]] bool block_is_plane(const CpuPixels& pixels, const BlockToTest& block);

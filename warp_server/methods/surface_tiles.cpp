@@ -90,7 +90,7 @@ void TileBuilder::find_members(TilePlane& plane) const {
     plane.members = {};
     plane_members(links_->pixels(),
                   {x_, y_, pixel_columns, pixel_rows, plane.plane.id, plane.plane.depth, plane.plane.gradient_x,
-                   plane.plane.gradient_y, kMeetingPlanesDepthPart},
+                   plane.plane.gradient_y, links_->tolerance(plane.plane.id, kMeetingPlanesDepthPart)},
                   plane.members.data());
     // Beyond the last column and row the last pixels count again.
     if (pixel_columns == columns_) {

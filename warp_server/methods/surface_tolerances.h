@@ -1,6 +1,10 @@
 #pragma once
 /// How exactly depths must agree to be one surface, or one plane.
 
+#include <algorithm>
+
+#include "core/camera.h"
+
 namespace lw {
 
 /// A step of 1 % of the depth displaces the parallax by as much: 0.5 px for a head that moved 10 cm before something
@@ -11,11 +15,26 @@ inline constexpr float kLevelDepthPart = 0.01F;
 /// themselves at worst between two neighbours on one plane.
 inline constexpr float kSlopeChangePart = 0.5F;
 
-/// A pixel of a patch may lie off the patch's plane by this part of its depth: 0.05 px for 10 cm of motion at 1 m.
+/// How far off a plane a pixel of it may lie: `part` of its depth, or `step` where that is more.
+struct DepthTolerance {
+    float part = 0.0F;
+    float step = 0.0F;
+
+    [[nodiscard]] float at(float depth) const { return std::max(part * depth, step); }
+};
+
+/// Of a patch: 0.05 px for 10 cm of motion at 1 m.
 inline constexpr float kPlaneDepthPart = 1e-3F;
 
 /// The same where planes meet: pixels near a crease are on their own plane and almost on the other one.
 inline constexpr float kMeetingPlanesDepthPart = 1e-5F;
+
+/// What lies apart by so little does not show that it does, at any distance: it shifts by at most 0.1 px when the head
+/// moves 10 cm. Reversed depth is the near plane's distance over a pixel's, so that equal steps are equal shifts: the
+/// tiles of a roof 20 m away, and the paint on the street, are planes. Of what stands still alone: what turns shows its
+/// depth. (City at 1024x1024 from one sample: `prepare` 15 to 7 ms, the warp 9.6 to 7.4 ms; FLIP and PSNR of twelve
+/// replays the same to three digits.)
+[[nodiscard]] float unseen_depth_step(const Camera& source);
 
 /// How far a piece reaches beyond its first and its last cell, in source pixels.
 struct PatchOverlap {

@@ -1,5 +1,6 @@
 #pragma once
-/// Wall time and processor time, for cost figures only: nothing that a run shows depends on them.
+/// Wall time and processor time, for cost figures and for sharing work among threads: nothing that a run shows depends
+/// on them.
 
 #include <chrono>
 #include <ctime>

@@ -15,7 +15,7 @@
 #include "warp_server/methods/row_range.h"
 #include "warp_server/methods/surface_cells.h"
 #include "warp_server/methods/surface_classify.h"
-#include "warp_server/methods/surface_links.h"
+#include "warp_server/methods/surface_tolerances.h"
 
 namespace lw::test {
 namespace {
@@ -234,7 +234,7 @@ TEST(SurfaceCells, CornersAreGroupedByTheirLinks) {
 TEST(SurfaceClassify, AWallIsOneStripPerRowOfBlocksAndHasNoEdges) {
     const AnalyticScene scene = AnalyticScene::wall(3.0, 0.4);
     const Layer layer = scene.draw(street_camera({128, 128}), 0.0);
-    const auto prepared = classify_surfaces(layer.cpu(), layer.camera);
+    const auto prepared = classify_surfaces(layer.cpu());
     EXPECT_EQ(prepared->blocks.size(), 2U);
     EXPECT_EQ(prepared->tiles.surfaces.size(), 0U);
     EXPECT_EQ(prepared->patches.size(), 0U);
@@ -258,9 +258,12 @@ Layer ribbed_wall(double distance_m, double relief_m, ObjectId id) {
 
 // 1 / 19.9 m less 1 / 20 m, times 64 pixels per tangent and 10 cm, is 0.0016 px; from 1 to 0.9 m it is 0.7 px.
 TEST(SurfaceClassify, ReliefThatCannotBeSeenIsOnePlaneUnlessItMayTurn) {
-    const auto prepared = [](const Layer& layer) { return classify_surfaces(layer.cpu(), layer.camera); };
+    const auto prepared = [](const Layer& layer) {
+        return classify_surfaces(layer.cpu(), SurfaceUse::cpu_kernels, unseen_depth_step(layer.camera));
+    };
     EXPECT_EQ(prepared(ribbed_wall(20.0, 0.1, 0))->blocks.size(), 2U);
     EXPECT_EQ(prepared(ribbed_wall(20.0, 0.1, 0))->patches.size(), 0U);
+    EXPECT_EQ(classify_surfaces(ribbed_wall(20.0, 0.1, 0).cpu())->blocks.size(), 0U);  // unless it is asked for
     EXPECT_EQ(prepared(ribbed_wall(1.0, 0.1, 0))->blocks.size(), 0U);
     EXPECT_GT(prepared(ribbed_wall(20.0, 0.1, 7))->patches.size(), 1000U);
 }

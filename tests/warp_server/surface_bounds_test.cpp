@@ -35,7 +35,7 @@ protected:
 // A pixel may be nearer than the plane that it counts to, by as much as planes are told by.
 // Whichever of its regions a pixel is in, some region reaches its place.
 TEST_F(SurfaceBoundsTest, EveryPixelLandsWhereSomeRegionDoesAndNoNearer) {
-    const auto prepared = classify_surfaces(layer_.cpu(), layer_.camera);
+    const auto prepared = classify_surfaces(layer_.cpu());
     ASSERT_EQ(prepared->bounds.size(), prepared->regions.size());
     const PixelMatrix& m = *matrices_.find(0);
     std::vector<RegionReach> reaches;
@@ -68,7 +68,7 @@ TEST_F(SurfaceBoundsTest, EveryPixelLandsWhereSomeRegionDoesAndNoNearer) {
 
 TEST_F(SurfaceBoundsTest, NothingIsPromisedOfMoversAndBehindTheEye) {
     layer_.cpu().object_id.at(10, 10) = 1;
-    const auto prepared = classify_surfaces(layer_.cpu(), layer_.camera);
+    const auto prepared = classify_surfaces(layer_.cpu());
     EXPECT_FALSE(reach_of(prepared->bounds.front(), *matrices_.find(0)).has_value());
     RegionBounds bounds = prepared->bounds.back();
     ASSERT_TRUE(bounds.static_only);

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "core/colour.h"
 #include "tests/warp_server/analytic_scene.h"
@@ -21,13 +20,6 @@ constexpr Rgba8 kWhite{255, 255, 255, 255};
 Rgba8 with_share(Rgba8 colour, double share) {
     colour.a = static_cast<std::uint8_t>(std::lround(255.0 * share));
     return colour;
-}
-
-// As many pixels per degree as a display has: in a coarser picture 5 cm of depth at 1 m would make no difference.
-Camera display_camera(glm::ivec2 size_px) {
-    Camera camera = street_camera(size_px);
-    camera.fov = FovTangents::symmetric(std::numbers::pi / 18.0, static_cast<double>(size_px.x) / size_px.y);
-    return camera;
 }
 
 // Black 1 m away up to the middle of column 23, white 1.05 m away beyond: two surfaces that move alike.
@@ -57,7 +49,7 @@ Camera shifted(const Camera& source, double shift_px) {
 }
 
 TEST(SurfaceEdgeLattice, AnEdgeCoversWhatOfAPixelsAreaIsBeyondIt) {
-    const Camera source = display_camera({48, 24});
+    const Camera source = street_camera({48, 24});
     const Layer layer = half_plane(source);
     for (const double shift_px : {0.3, 0.4, 0.5}) {
         const DisplayFrame frame = warp_once("surface", layer, {shifted(source, shift_px), {}});
@@ -70,7 +62,7 @@ TEST(SurfaceEdgeLattice, AnEdgeCoversWhatOfAPixelsAreaIsBeyondIt) {
 }
 
 TEST(SurfaceEdgeLattice, SharesOfQuartersFadeInWithTheMotion) {
-    const Camera source = display_camera({48, 24});
+    const Camera source = street_camera({48, 24});
     const Layer layer = half_plane(source);
     EXPECT_EQ(warp_once("surface", layer, {source, {}}).colour.at(23, 12), kBlack);
     // After 2/1000 px a share of a half counts 1/125, or little more: 1 % of white light is level 26.
@@ -79,8 +71,8 @@ TEST(SurfaceEdgeLattice, SharesOfQuartersFadeInWithTheMotion) {
 }
 
 TEST(SurfaceEdgeLattice, EdgesAtTheRimOfThePictureCountTheirLastQuartersAgain) {
-    const Camera source = display_camera({24, 24});
-    Layer layer = half_plane(display_camera({48, 24}));
+    const Camera source = street_camera({24, 24});
+    Layer layer = half_plane(street_camera({48, 24}));
     Layer last = indexed_layer(source, 0.05F);
     last.cpu().alpha_is_share = true;
     last.cpu().quarters = ColourImage{2 * source.size_px};
@@ -119,7 +111,7 @@ struct TwoPixels {
 
     // Green of the right pixel's left upper quarter in a picture that is read between pixels.
     [[nodiscard]] int joined() const {
-        const SurfaceLinks links{pixels, display_camera({2, 1})};
+        const SurfaceLinks links{pixels};
         const LinearImage linear{pixels.colour, LinearAlpha::kept};
         LinearImage quarters{pixels.quarters};
         QuarterParts parts{links, linear, quarters};

@@ -20,7 +20,7 @@ namespace lw {
     METHOD(surface_gl, "surface-gl", true, "", "surface, drawn by GL")                                            \
     METHOD(splat, "splat", false, "threads", "every pixel a point, on the CPU")                                   \
     METHOD(inverse, "inverse", false, "steps,threads", "search in the source for every target pixel, on the CPU") \
-    METHOD(surface, "surface", false, "threads",                                                                  \
+    METHOD(surface, "surface", false, "threads,flatten",                                                          \
            "surfaces placed by their pieces, colour solved on each; the default")                                 \
     METHOD(reference, "reference", false, "", "double precision, slow and obvious: the oracle of the tests")
 

@@ -15,6 +15,7 @@
 #include "warp_server/methods/surface_costs.h"
 #include "warp_server/methods/surface_kernels.h"
 #include "warp_server/methods/surface_split.h"
+#include "warp_server/methods/surface_tolerances.h"
 #include "warp_server/stepped_warp.h"
 
 namespace lw {
@@ -174,13 +175,15 @@ private:
 
 class SurfaceMethod final : public WarpMethod, public SteppedWarp {
 public:
-    SurfaceMethod(std::string label, int threads) : label_{std::move(label)}, pool_{threads} {}
+    SurfaceMethod(std::string label, int threads, bool flatten)
+        : label_{std::move(label)}, pool_{threads}, flatten_{flatten} {}
 
     [[nodiscard]] std::string_view label() const override { return label_; }
     [[nodiscard]] TaskPool* threads() override { return &pool_; }
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
-        return classify_surfaces(checked_cpu_pixels(layer), layer.camera);
+        const float unseen_step = flatten_ ? unseen_depth_step(layer.camera) : 0.0F;
+        return classify_surfaces(checked_cpu_pixels(layer), SurfaceUse::cpu_kernels, unseen_step);
     }
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
@@ -284,6 +287,7 @@ private:
 
     std::string label_;
     TaskPool pool_;
+    bool flatten_;
     std::vector<BandPainter> painters_;  // by band
     std::vector<RowRange> bands_;
     RowCosts row_costs_;
@@ -308,7 +312,9 @@ private:
 MadeMethod make_surface_method(std::string label, const MethodSettings& settings) {
     const Result<int> threads = whole_setting(label, settings, "threads", 1, 1, 16);
     if (!threads) return threads.error();
-    return std::unique_ptr<WarpMethod>{std::make_unique<SurfaceMethod>(std::move(label), *threads)};
+    const Result<int> flatten = whole_setting(label, settings, "flatten", 0, 0, 1);
+    if (!flatten) return flatten.error();
+    return std::unique_ptr<WarpMethod>{std::make_unique<SurfaceMethod>(std::move(label), *threads, *flatten == 1)};
 }
 
 }  // namespace lw

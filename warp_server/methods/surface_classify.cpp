@@ -226,8 +226,7 @@ void PatchList::reserve(std::size_t count) {
     corners.reserve(count);
 }
 
-std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, const Camera& source,
-                                                         SurfaceUse use) {
+std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, SurfaceUse use, float unseen_step) {
     auto prepared = std::make_shared<PreparedSurface>();
     prepared->size_px = pixels.depth.size_px();
     // Enough for most pictures; memory that is not written to costs nothing.
@@ -236,7 +235,7 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     prepared->edges.reserve(pixel_count / 16);
     prepared->tiles.surfaces.reserve(pixel_count / 32);
     prepared->tiles.cells.reserve(pixel_count / 32 * static_cast<std::size_t>(kTileSize));
-    const SurfaceLinks links{pixels, source};
+    const SurfaceLinks links{pixels, unseen_step};
     PatchBuilder{links, *prepared}.build();
     if (use == SurfaceUse::cpu_kernels) {
         prepared->linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};

@@ -117,9 +117,8 @@ public:
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         const auto* textures = std::get_if<TexturePixels>(&layer.pixels);
-        const auto surface = textures != nullptr
-                                 ? classify_surfaces(downloaded(*textures), layer.camera, SurfaceUse::gl)
-                                 : classify_surfaces(checked_cpu_pixels(layer), layer.camera, SurfaceUse::gl);
+        const auto surface = textures != nullptr ? classify_surfaces(downloaded(*textures), SurfaceUse::gl)
+                                                 : classify_surfaces(checked_cpu_pixels(layer), SurfaceUse::gl);
         auto prepared = std::make_shared<PreparedGlSurface>();
         prepared->number = ++prepared_count_;
         PatchList whole_cells;

@@ -195,8 +195,7 @@ void plane_members(const CpuPixels& pixels, const BlockToTest& block, std::uint1
     HWY_DYNAMIC_DISPATCH(plane_members_here)(pixels, block, rows);
 }
 
-SurfaceLinks::SurfaceLinks(const CpuPixels& pixels, const Camera& source)
-    : pixels_{&pixels}, unseen_step_{unseen_depth_step(source)} {
+SurfaceLinks::SurfaceLinks(const CpuPixels& pixels, float unseen_step) : pixels_{&pixels}, unseen_step_{unseen_step} {
     to_right_and_down_.resize(pixels.depth.size_px());
     HWY_DYNAMIC_DISPATCH(link_image)(pixels, unseen_step_, to_right_and_down_);
 }

@@ -25,8 +25,8 @@ enum CellLink : std::uint8_t {
 class SurfaceLinks {
 public:
     /// Any thread; `pixels` must outlive this.
-    /// @param source  that they were drawn for
-    SurfaceLinks(const CpuPixels& pixels, const Camera& source);
+    /// @param unseen_step  depths of what stands still that lie no farther apart are linked; >= 0
+    explicit SurfaceLinks(const CpuPixels& pixels, float unseen_step = 0.0F);
 
     [[nodiscard]] glm::ivec2 size_px() const { return to_right_and_down_.size_px(); }
     [[nodiscard]] const CpuPixels& pixels() const { return *pixels_; }

@@ -212,6 +212,7 @@ public:
             to_paint_ = to_paint_.subspan(1);
             base = StackBase::picture;
         }
+        is_whole_ = base == StackBase::nothing;
         bands_.resize(static_cast<std::size_t>(bands));
         painters_.resize(bands_.size());
         place_bands(target.camera.size_px);
@@ -238,7 +239,7 @@ public:
             const std::vector<PartlyCovered>& partly = painter.partly_covered();
             out_->partly_covered.insert(out_->partly_covered.end(), partly.begin(), partly.end());
         }
-        balance_.learn(band_times_);
+        if (is_whole_) balance_.learn(band_times_);
     }
 
 private:
@@ -291,7 +292,8 @@ private:
     std::vector<BandPainter> painters_;  // by band
     std::vector<RowRange> bands_;
     RowCosts row_costs_;
-    BandBalance balance_;  // of whole pictures
+    BandBalance balance_;    // of whole pictures
+    bool is_whole_ = false;  // the picture being drawn: not more layers over one
     std::vector<double> band_times_;
 
     // Of the picture being drawn.

@@ -35,6 +35,7 @@ void BandBalance::learn(std::span<const double> times) {
         const double begin = band == 0 ? 0.0 : ends_[band - 1];
         const double ideal = begin + (ends_[band] - begin) * (wanted - before) / times[band];
         learned_[i] += std::clamp(kTaughtPart * (ideal - ends_[i]), -kLargestStep, kLargestStep);
+        if (i > 0) learned_[i] = std::max(learned_[i], learned_[i - 1]);
     }
     std::swap(ends_, learned_);
 }

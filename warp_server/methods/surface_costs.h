@@ -14,8 +14,7 @@ struct PreparedSurface;
 /// Of drawing each region of `prepared`, in pixels of a large block. Pure, any thread.
 [[nodiscard]] std::vector<float> costs_of_regions(const PreparedSurface& prepared);
 
-/// Adds to the rows of a picture what each region costs where it lands; as if movers stood still, since threads that
-/// are done early wait for no more than the difference.
+/// Adds to the rows of a picture what each region costs where it lands, as if movers stood still.
 /// @param target_from_source  of what does not move
 void add_costs(const PreparedSurface& prepared, const PixelMatrix& target_from_source, glm::ivec2 target_size_px,
                RowCosts& costs);

@@ -32,7 +32,7 @@ inline constexpr float kMeetingPlanesDepthPart = 1e-5F;
 /// What lies apart by so little does not show that it does, at any distance: it shifts by at most 0.1 px when the head
 /// moves 10 cm. Reversed depth is the near plane's distance over a pixel's, so that equal steps are equal shifts: the
 /// tiles of a roof 20 m away, and the paint on the street, are planes. Of what stands still alone: what turns shows its
-/// depth. (City at 1024x1024 from one sample: `prepare` 12.6 to 7.5 ms, the warp 8.6 to 7.7 ms; FLIP and PSNR of twelve
+/// depth. (City at 1024x1024 from one sample: `prepare` 14.7 to 8.8 ms, the warp 9.4 to 8.5 ms; mean FLIP of twelve
 /// replays the same to three digits.) A choice (`surface:flatten=1`), since it is no longer exact for whoever travels
 /// kilometres while a frame is shown, nor are the depths of what is far.
 [[nodiscard]] float unseen_depth_step(const Camera& source);

@@ -28,11 +28,7 @@ public:
         resize(frame.coverage.size_px());
         mark_tiles();
         collect_tiles(guide);
-        for (const HoleRun& run : ends_.runs()) {
-            const int middle = (run.begin + run.end) / 2 / kFillTile_px;
-            const FillCosts costs = costs_along(towards_.at(middle, run.y / kFillTile_px));
-            set_limits(frame, run, ends_.background_of(frame, run, scratch_, costs));
-        }
+        set_limits(frame);
         collect_tile_runs();
         const FillPixels pixels{frame.colour.pixels().data(), frame.depth.pixels().data(), frame.coverage.size_px()};
         pull(pixels);
@@ -73,17 +69,27 @@ private:
         }
     }
 
-    static void set_limits(DisplayFrame& frame, const HoleRun& run, const HoleBackground& background) {
-        const std::span<float> depths = frame.depth.pixels();
-        const std::span<Rgba8> colours = frame.colour.pixels();
-        const std::span<float> depth_to = frame.depth.row(run.y).subspan(static_cast<std::size_t>(run.begin));
-        const std::span<Rgba8> colour_to = frame.colour.row(run.y).subspan(static_cast<std::size_t>(run.begin));
-        for (std::size_t i = 0; i < background.index.size(); ++i) {
-            const auto from = static_cast<std::size_t>(background.index[i]);
-            depth_to[i] = hole_with_limit(limit_at(depths[from]));
-            colour_to[i] = colours[from];
-            colour_to[i].a = part_of_copy(background.cost[i]);
+    static HolePart whole(const HoleRun& run) { return {run, {run.begin, run.end}}; }
+
+    void set_limits(DisplayFrame& frame) {
+        scratch_.resize(frame.depth.width());
+        const std::span<const HoleRun> runs = ends_.runs();
+        for (std::size_t i = runs.size(); i-- > 0;) look_below(frame, whole(runs[i]), scratch_);
+        for (const HoleRun& run : runs) {
+            const int middle = (run.begin + run.end) / 2 / kFillTile_px;
+            const FillCosts costs = costs_along(towards_.at(middle, run.y / kFillTile_px));
+            choose_background(frame, whole(run), costs, scratch_);
+            copy_background(frame, whole(run), kNothingColour, scratch_);
+            for (int x = run.begin; x < run.end; ++x) {
+                frame.depth.at(x, run.y) = hole_with_limit(frame.depth.at(x, run.y));
+                frame.colour.at(x, run.y).a = part_of_copy(scratch_.cost[static_cast<std::size_t>(x)]);
+            }
         }
+        ends_.spread_sideways([&](int y, int x, int from_x) {
+            frame.depth.at(x, y) = frame.depth.at(from_x, y);
+            frame.colour.at(x, y) = frame.colour.at(from_x, y);
+            frame.colour.at(x, y).a = 0;
+        });
     }
 
     // Half pixels of distance along the background's side, three times that against it.
@@ -97,9 +103,6 @@ private:
         const std::int32_t faded = 255 * (std::min(cost, kCopiedCost) - kLeastCost) / (kCopiedCost - kLeastCost);
         return static_cast<std::uint8_t>(255 - std::clamp(faded, 0, 255));
     }
-
-    // The background of a run's end may itself be a hole that took its limit already (a row without reached pixels).
-    static float limit_at(float depth) { return depth >= 0.0F ? depth : -1.0F - depth; }
 
     // Tiles with holes and those beside them.
     void mark_tiles() {

@@ -1,8 +1,7 @@
 #pragma once
-/// The holes of a picture as runs along rows, and for each hole pixel the reached pixel that best continues behind it.
+/// The holes of a picture as runs along rows, and how threads share them.
 
 #include <cstddef>
-#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -13,29 +12,8 @@
 
 namespace lw {
 
-/// Hole pixels [begin, end) of one row.
-struct HoleRun {
-    int y = 0;
-    int begin = 0;
-    int end = 0;
-    std::size_t first_hole = 0;  ///< index of its first pixel among all hole pixels, row by row
-};
-
-/// What one thread needs to look for backgrounds; keeps its memory.
-struct HoleScratch {
-    std::vector<std::int32_t> chosen;
-    std::vector<std::int32_t> cost;
-};
-
-/// One entry for each pixel of a run; valid until the scratch is used again.
-struct HoleBackground {
-    std::span<const std::int32_t> index;  ///< of the pixel in the picture that continues behind it
-    std::span<const std::int32_t>
-        cost;  ///< of its distance (choose_background()); larger than any other where it is a guess
-};
-
 /// No allocation once sizes are seen. Its cost grows with the holes, not with the picture. One thread at a time finds;
-/// then any number may ask for backgrounds, each with a scratch of its own.
+/// then any number may read.
 class HoleEnds {
 public:
     /// Fewer are filled before another thread has woken.
@@ -45,57 +23,54 @@ public:
     HoleEnds(const HoleEnds&) = delete;
     HoleEnds& operator=(const HoleEnds&) = delete;
 
-    /// Finds the runs, top row first, and what lies above and below each hole pixel.
     /// @param threads  null: the caller's alone
     void find(const DisplayFrame& frame, TaskPool* threads = nullptr);
 
+    /// Top row first, from left to right.
     [[nodiscard]] std::span<const HoleRun> runs() const { return runs_; }
     [[nodiscard]] std::size_t hole_count() const { return hole_count_; }
-    /// Share `index` of `count` of the runs, of about equally many holes.
-    [[nodiscard]] std::span<const HoleRun> share(int index, int count) const;
+    /// All columns of the picture.
+    [[nodiscard]] RowRange columns() const { return {0, width_}; }
+    /// Share `index` of `count` of the columns, of about as much work: walks along columns (fill_kernels.h) do not
+    /// meet.
+    [[nodiscard]] RowRange share(int index, int count) const;
 
-    /// For each pixel of the run what continues behind it: along its row and column the farther surface
-    /// (choose_background()); where neither row nor column was reached that of the closest hole of its row that has
-    /// one. -1 only in a picture of nothing but holes. Depths of reached pixels are those of find().
-    [[nodiscard]] HoleBackground background_of(const DisplayFrame& frame, const HoleRun& run, HoleScratch& scratch,
-                                               const FillCosts& costs = {}) const;
+    /// The parts of the runs in these columns, top row first.
+    void parts_in(RowRange columns, std::vector<HolePart>& parts) const;
+
+    /// Where neither a row nor a column has any reached pixel, choose_background() finds nothing; what it found for the
+    /// closest column is shown there. Calls copy(y, column, from_column) for each such pixel, after all others have
+    /// theirs; for none in a picture of nothing but holes.
+    template <class Copy>
+    void spread_sideways(const Copy& copy) const {
+        for (const HoleRun& run : runs_) {
+            if (run.end - run.begin < width_) continue;
+            for (const RowRange& gap : unreached_columns_) {
+                const int middle = gap.begin == 0 ? gap.begin : gap.end == width_ ? gap.end : (gap.begin + gap.end) / 2;
+                if (gap.end - gap.begin == width_) return;
+                for (int x = gap.begin; x < middle; ++x) copy(run.y, x, gap.begin - 1);
+                for (int x = middle; x < gap.end; ++x) copy(run.y, x, gap.end);
+            }
+        }
+    }
 
 private:
-    // What ends the columns of hole pixels on one side.
-    struct ColumnEnds {
-        std::vector<std::int32_t> row;  // per hole pixel: the reached row on that side, or -1
-        std::vector<float> depth;
-        std::vector<std::int32_t> rows;  // per column, see follow()
-        std::vector<float> depths;
-    };
-
-    // Hole runs of some rows, and how many pixels they are.
-    struct Rows {
-        std::vector<HoleRun> runs;  // first_hole counts from the first of these
-        std::size_t hole_count = 0;
-    };
-
     void collect_runs(TaskPool* threads);
-    void collect_runs(RowRange rows, Rows& into) const;
-    void join_rows();
-    void find_ends_above(const DisplayFrame& frame);
-    void find_ends_below(const DisplayFrame& frame);
-    static void follow(const DisplayFrame& frame, const HoleRun& run, int beside, ColumnEnds& ends);
+    void collect_runs(RowRange rows, std::vector<HoleRun>& into) const;
+    void count_columns(int height);
 
     int width_ = 0;
     std::size_t hole_count_ = 0;
-    std::vector<HoleRun> runs_;  // top row first
-    std::vector<Rows> rows_;     // by task: bands of the picture
-    ColumnEnds above_;
-    ColumnEnds below_;
+    std::vector<HoleRun> runs_;
+    std::vector<std::vector<HoleRun>> rows_;   // runs by task: bands of the picture
+    std::vector<RowRange> unreached_columns_;  // columns of nothing but holes
+    std::vector<int> holes_;                   // by column
+    std::vector<float> work_until_;            // of all columns before
     const DisplayFrame* frame_ = nullptr;
     // Kept, because making a function object may allocate.
     TaskPool::Work collect_rows_ = [this](int task, int /*worker*/) {
         const int height = frame_->coverage.height();
         collect_runs(band_of_rows(height, task, static_cast<int>(rows_.size())), rows_[static_cast<std::size_t>(task)]);
-    };
-    TaskPool::Work find_ends_ = [this](int task, int /*worker*/) {
-        task == 0 ? find_ends_above(*frame_) : find_ends_below(*frame_);
     };
 };
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
+#include <glm/vec2.hpp>
 #include <vector>
 
 #include "warp_server/methods/row_range.h"
@@ -16,13 +17,20 @@ namespace lw {
 /// frames.
 class KeyRing {
 public:
+    /// Makes room for any part of a picture of this size. How many rows are in flight depends on how the head turns;
+    /// told the size first, no later display frame pays for new memory, whose pages cost a millisecond for every two
+    /// megabytes.
+    void reserve(glm::ivec2 size_px) {
+        const std::size_t count = static_cast<std::size_t>(stride_of(size_px.x)) * slots_of(size_px.y);
+        if (keys_.size() < count) keys_.resize(count, WinnerKey{0});
+    }
+
     /// Makes room for `rows` rows of the columns. Allocates only when it needs more than ever before.
     void reshape(RowRange columns, int rows) {
         first_column_ = columns.begin;
         width_ = columns.end - columns.begin;
-        // No power of two: a processor takes places that are whole pages apart for one when it orders reads and writes.
-        stride_ = (width_ + 63) / 64 * 64 + 8;
-        slots_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(std::max(rows, 1))));
+        stride_ = stride_of(width_);
+        slots_ = static_cast<int>(slots_of(rows));
         const std::size_t count = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(slots_);
         if (keys_.size() < count) keys_.resize(count, WinnerKey{0});
     }
@@ -39,6 +47,10 @@ public:
     }
 
 private:
+    // No power of two: a processor takes places that are whole pages apart for one when it orders reads and writes.
+    static int stride_of(int width) { return (width + 63) / 64 * 64 + 8; }
+    static unsigned slots_of(int rows) { return std::bit_ceil(static_cast<unsigned>(std::max(rows, 1))); }
+
     int first_column_ = 0;
     int width_ = 0;
     int stride_ = 0;

@@ -39,6 +39,7 @@ public:
         reach_.build(tiles, matrices_, target.camera.size_px);
         parts_.build(reach_, tiles, pool_.threads());
         out.resize(target.camera.size_px);
+        for (Painter& painter : painters_) painter.keys.reserve(target.camera.size_px);
         input_ = {&pixels, &tiles, &matrices_};
         background_ = {background_source_from_target(layer.camera, target.camera)};
         out_ = &out;

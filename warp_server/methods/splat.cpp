@@ -65,7 +65,7 @@ private:
         for (int band = 0; band < input_.tiles->bands(); ++band) {
             const RowRange rows = part.rows_of_band(band);
             if (rows.begin < rows.end) {
-                splat_band(input_, band, part.outside(band), {finished, rect.end_px.y}, keys);
+                splat_band(input_, band, part.landings(band), {finished, rect.end_px.y}, keys);
                 reached = std::max(rows.end, reached);
             }
             finish_rows(finished, reached, part.first_row_from_band(band + 1), keys);

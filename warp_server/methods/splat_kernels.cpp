@@ -82,7 +82,7 @@ HWY_NOINLINE void write_large_point(KeyRing& keys, float x_px, float y_px, float
 }
 
 // Writes the points of Lanes(d) pixels of one row from column x on, as far as `wanted`.
-template <class D>
+template <TileLanding kLanding, class D>
 HWY_INLINE void write_points(D d, BandContext& band, const PlacedPoints<D>& points, const Footprints<D>& size,
                              hn::Mask<D> wanted, const Rgba8* colours) {
     const hn::RebindToUnsigned<D> du;
@@ -102,17 +102,21 @@ HWY_INLINE void write_points(D d, BandContext& band, const PlacedPoints<D>& poin
     auto y_begin = begin_of(centre_y, size.half_y_px);
     auto x_end = end_of(centre_x, size.half_x_px, x_begin);
     auto y_end = end_of(centre_y, size.half_y_px, y_begin);
-    const auto clamp = [&](hn::Vec<D> value, int least, int greatest) {
-        return hn::Min(hn::Max(value, hn::Set(d, static_cast<float>(least))), hn::Set(d, static_cast<float>(greatest)));
-    };
-    const int end_column = keys.first_column() + keys.width();
-    x_begin = clamp(x_begin, keys.first_column(), end_column);
-    x_end = clamp(x_end, keys.first_column(), end_column);
-    y_begin = clamp(y_begin, band.target_rows.begin, band.target_rows.end);
-    y_end = clamp(y_end, band.target_rows.begin, band.target_rows.end);
+    auto valid = hn::And(wanted, points.in_front);
+    if constexpr (kLanding == TileLanding::crossing) {
+        const auto clamp = [&](hn::Vec<D> value, int least, int greatest) {
+            return hn::Min(hn::Max(value, hn::Set(d, static_cast<float>(least))),
+                           hn::Set(d, static_cast<float>(greatest)));
+        };
+        const int end_column = keys.first_column() + keys.width();
+        x_begin = clamp(x_begin, keys.first_column(), end_column);
+        x_end = clamp(x_end, keys.first_column(), end_column);
+        y_begin = clamp(y_begin, band.target_rows.begin, band.target_rows.end);
+        y_end = clamp(y_end, band.target_rows.begin, band.target_rows.end);
+        valid = hn::And(valid, hn::And(hn::Lt(x_begin, x_end), hn::Lt(y_begin, y_end)));
+    }
     const auto columns = hn::Sub(x_end, x_begin);
     const auto rows = hn::Sub(y_end, y_begin);
-    const auto valid = hn::And(hn::And(wanted, points.in_front), hn::And(hn::Ge(columns, one), hn::Ge(rows, one)));
     if (hn::AllFalse(d, valid)) return;
 
     const auto dx = hn::Sub(x_begin, centre_x);
@@ -166,7 +170,7 @@ HWY_INLINE void write_points(D d, BandContext& band, const PlacedPoints<D>& poin
 }
 
 // A block whose pixels and neighbours are of one object and usable.
-template <class D>
+template <TileLanding kLanding, class D>
 HWY_INLINE void splat_uniform(D d, BandContext& band, int x, int y, ObjectId object, const PixelMatrix& m) {
     const float* depths = band.pixels->depth.row(y).data() + x;
     const std::ptrdiff_t width = band.pixels->depth.width();
@@ -179,7 +183,7 @@ HWY_INLINE void splat_uniform(D d, BandContext& band, int x, int y, ObjectId obj
     const Footprints<D> size = footprints(d, matrices, points, gradient_x, gradient_y);
     // Object 0's background is not a point. Other objects may be infinitely far away and still move.
     const auto wanted = hn::Gt(depth, hn::Set(d, object == 0 ? 0.0F : -1.0F));
-    write_points(d, band, points, size, wanted, colours);
+    write_points<kLanding>(d, band, points, size, wanted, colours);
 }
 
 template <class D>
@@ -200,7 +204,7 @@ hn::Vec<D> neighbour_depths(D d, const float* depths, const ObjectId* ids, std::
 }
 
 // Lanes(d) pixels from column x on, of any objects.
-template <class D>
+template <TileLanding kLanding, class D>
 HWY_INLINE void splat_mixed(D d, BandContext& band, int x, int y) {
     const hn::RebindToUnsigned<D> du;
     const CpuPixels& pixels = *band.pixels;
@@ -246,11 +250,12 @@ HWY_INLINE void splat_mixed(D d, BandContext& band, int x, int y) {
         matrices = with_matrix(d, matrices, group, *m, y);
     }
     const PlacedPoints<D> points = place_points(d, matrices, x, depth);
-    write_points(d, band, points, footprints(d, matrices, points, gradient_x, gradient_y), wanted,
-                 pixels.colour.row(y).data() + x);
+    write_points<kLanding>(d, band, points, footprints(d, matrices, points, gradient_x, gradient_y), wanted,
+                           pixels.colour.row(y).data() + x);
 }
 
 // Any run of pixels; at the first and last pixel of the image one by one.
+template <TileLanding kLanding>
 void splat_run(BandContext& band, int x, int end_x, int y) {
     const DF d;
     const hn::CappedTag<float, 1> d1;
@@ -259,10 +264,10 @@ void splat_run(BandContext& band, int x, int end_x, int y) {
     while (x < end_x) {
         const bool beside_nothing = (y == 0 && x == 0) || (y == size_px.y - 1 && x + lanes >= size_px.x);
         if (x + lanes <= end_x && !beside_nothing) {
-            splat_mixed(d, band, x, y);
+            splat_mixed<kLanding>(d, band, x, y);
             x += lanes;
         } else {
-            splat_mixed(d1, band, x++, y);
+            splat_mixed<kLanding>(d1, band, x++, y);
         }
     }
 }
@@ -275,6 +280,7 @@ HWY_INLINE void fetch_ahead(const CpuPixels& pixels, int x, int y) {
     __builtin_prefetch(pixels.object_id.row(y).data() + x + kTileWidth_px);
 }
 
+template <TileLanding kLanding>
 void splat_block(BandContext& band, const SplatTiles& tiles, int block, int y) {
     const std::size_t i =
         static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.blocks_per_row) + static_cast<std::size_t>(block);
@@ -283,7 +289,7 @@ void splat_block(BandContext& band, const SplatTiles& tiles, int block, int y) {
     fetch_ahead(*band.pixels, x, y);
     if (kind == BlockKind::empty) return;
     if (kind == BlockKind::mixed) {
-        splat_run(band, x, std::min(x + kBlockWidth_px, tiles.size_px.x), y);
+        splat_run<kLanding>(band, x, std::min(x + kBlockWidth_px, tiles.size_px.x), y);
         return;
     }
     const ObjectId object = tiles.objects[i];
@@ -291,26 +297,33 @@ void splat_block(BandContext& band, const SplatTiles& tiles, int block, int y) {
     if (m == nullptr) return;
     const hn::CappedTag<float, kBlockWidth_px> d;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    for (int at = 0; at < kBlockWidth_px; at += lanes) splat_uniform(d, band, x + at, y, object, *m);
+    for (int at = 0; at < kBlockWidth_px; at += lanes) {
+        splat_uniform<kLanding>(d, band, x + at, y, object, *m);
+    }
 }
 
-void splat_band_here(const SplatInput& input, int band, std::span<const std::uint8_t> outside, RowRange target_rows,
+template <TileLanding kLanding>
+void splat_tile(BandContext& band, const SplatTiles& tiles, RowRange blocks, RowRange rows) {
+    for (int block = blocks.begin; block < blocks.end; ++block) {
+        // Down, not along: a block is mostly of the same kind as the one above it, which spares wrong guesses, and
+        // where rows of the source stand across the target, neighbours meet in the cache.
+        for (int y = rows.begin; y < rows.end; ++y) splat_block<kLanding>(band, tiles, block, y);
+    }
+}
+
+void splat_band_here(const SplatInput& input, int band, std::span<const TileLanding> landings, RowRange target_rows,
                      KeyRing& keys) {
     const SplatTiles& tiles = *input.tiles;
     // Never more rows than the ring holds, whatever the bounds said.
     target_rows.end = std::min(target_rows.end, target_rows.begin + keys.slots());
     BandContext context{input.pixels, input.matrices, &keys, target_rows, {}};
-    const int begin_y = band * kBandHeight_px;
-    const int end_y = std::min(begin_y + kBandHeight_px, tiles.size_px.y);
+    const RowRange rows{band * kBandHeight_px, std::min((band + 1) * kBandHeight_px, tiles.size_px.y)};
     const int blocks_per_tile = kTileWidth_px / kBlockWidth_px;
     for (int tile = 0; tile < tiles.tiles_per_band(); ++tile) {
-        if (outside[static_cast<std::size_t>(tile)] != 0) continue;
-        const int end_block = std::min((tile + 1) * blocks_per_tile, tiles.blocks_per_row);
-        for (int block = tile * blocks_per_tile; block < end_block; ++block) {
-            // Down, not along: a block is mostly of the same kind as the one above it, which spares wrong guesses, and
-            // where rows of the source stand across the target, neighbours meet in the cache.
-            for (int y = begin_y; y < end_y; ++y) splat_block(context, tiles, block, y);
-        }
+        const TileLanding landing = landings[static_cast<std::size_t>(tile)];
+        const RowRange blocks{tile * blocks_per_tile, std::min((tile + 1) * blocks_per_tile, tiles.blocks_per_row)};
+        if (landing == TileLanding::inside) splat_tile<TileLanding::inside>(context, tiles, blocks, rows);
+        if (landing == TileLanding::crossing) splat_tile<TileLanding::crossing>(context, tiles, blocks, rows);
     }
     context.pending.write(keys.data());
 }
@@ -324,9 +337,9 @@ namespace lw {
 
 HWY_EXPORT(splat_band_here);
 
-void splat_band(const SplatInput& input, int band, std::span<const std::uint8_t> outside, RowRange target_rows,
+void splat_band(const SplatInput& input, int band, std::span<const TileLanding> landings, RowRange target_rows,
                 KeyRing& keys) {
-    HWY_DYNAMIC_DISPATCH(splat_band_here)(input, band, outside, target_rows, keys);
+    HWY_DYNAMIC_DISPATCH(splat_band_here)(input, band, landings, target_rows, keys);
 }
 
 }  // namespace lw

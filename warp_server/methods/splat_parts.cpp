@@ -42,12 +42,16 @@ void SplatPart::build(const SplatReach& reach, const PixelRect& rect) {
     tiles_per_band_ = reach.tiles_per_band();
     const int bands = reach.bands();
     rows_.assign(static_cast<std::size_t>(bands), RowRange{});
-    outside_.assign(static_cast<std::size_t>(bands) * static_cast<std::size_t>(tiles_per_band_), 1);
+    landings_.assign(static_cast<std::size_t>(bands) * static_cast<std::size_t>(tiles_per_band_), TileLanding::outside);
     for (int band = 0; band < bands; ++band) {
         for (int tile = 0; tile < tiles_per_band_; ++tile) {
-            const PixelRect here = common(reach.rect_of(band, tile), rect);
+            const PixelRect reached = reach.rect_of(band, tile);
+            const PixelRect here = common(reached, rect);
             if (here.empty()) continue;
-            outside_[static_cast<std::size_t>(band * tiles_per_band_ + tile)] = 0;
+            const bool inside =
+                reach.lands_whole(band, tile) && here.first_px == reached.first_px && here.end_px == reached.end_px;
+            landings_[static_cast<std::size_t>(band * tiles_per_band_ + tile)] =
+                inside ? TileLanding::inside : TileLanding::crossing;
             RowRange& rows = rows_[static_cast<std::size_t>(band)];
             rows = joined(rows, {here.first_px.y, here.end_px.y});
         }

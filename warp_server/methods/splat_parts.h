@@ -24,10 +24,10 @@ public:
     [[nodiscard]] RowRange rows_of_band(int band) const { return rows_[static_cast<std::size_t>(band)]; }
     /// First row of the rectangle that `band` or any later band can write; its end when there is none.
     [[nodiscard]] int first_row_from_band(int band) const { return first_row_[static_cast<std::size_t>(band)]; }
-    /// For each tile of `band`, 1 when no pixel of it can be seen here.
-    [[nodiscard]] std::span<const std::uint8_t> outside(int band) const {
+    /// For each tile of `band` where its points land.
+    [[nodiscard]] std::span<const TileLanding> landings(int band) const {
         const auto count = static_cast<std::size_t>(tiles_per_band_);
-        return {outside_.data() + count * static_cast<std::size_t>(band), count};
+        return {landings_.data() + count * static_cast<std::size_t>(band), count};
     }
 
     /// How many rows are in flight at most when the bands are worked on in order.
@@ -39,7 +39,7 @@ private:
     int rows_in_flight_ = 0;
     std::vector<RowRange> rows_;
     std::vector<int> first_row_;  // one entry more than bands
-    std::vector<std::uint8_t> outside_;
+    std::vector<TileLanding> landings_;
 };
 
 /// The parts of one display frame: rectangles that meet and cover the target, the most expensive first.

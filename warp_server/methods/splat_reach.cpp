@@ -64,6 +64,13 @@ RowRange pixels_of(const Extent& extent, int size) {
     return {static_cast<int>(begin), static_cast<int>(end)};
 }
 
+bool lands_inside(const BoxReach& reach, glm::ivec2 size_px) {
+    const auto inside = [](const Extent& extent, int size) {
+        return extent.least >= kMargin_px && extent.greatest <= static_cast<float>(size) - kMargin_px;
+    };
+    return reach.kind == BoxReach::Kind::bounded && inside(reach.x, size_px.x) && inside(reach.y, size_px.y);
+}
+
 PixelRect joined(const PixelRect& a, const PixelRect& b) {
     if (a.empty()) return b;
     if (b.empty()) return a;
@@ -76,11 +83,11 @@ void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, 
     target_size_px_ = target_size_px;
     bands_ = tiles.bands();
     tiles_per_band_ = tiles.tiles_per_band();
-    rects_.assign(static_cast<std::size_t>(bands_) * static_cast<std::size_t>(tiles_per_band_), PixelRect{});
+    rects_.assign(index(bands_, 0), PixelRect{});
+    cut_.assign(rects_.size(), 0);
     for (int band = 0; band < bands_; ++band) {
         const int y = band * kBandHeight_px;
         const int end_y = std::min(y + kBandHeight_px, tiles.size_px.y);
-        PixelRect* rects = rects_.data() + static_cast<std::size_t>(band) * static_cast<std::size_t>(tiles_per_band_);
         const auto b = static_cast<std::size_t>(band);
         for (int i = tiles.first_patch[b]; i < tiles.first_patch[b + 1]; ++i) {
             const TilePatch& patch = tiles.patches[static_cast<std::size_t>(i)];
@@ -92,6 +99,8 @@ void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, 
                 reach_of({static_cast<float>(x) + 0.5F, static_cast<float>(end_x) - 0.5F, static_cast<float>(y) + 0.5F,
                           static_cast<float>(end_y) - 0.5F, patch.least_depth, patch.greatest_depth},
                          *matrix);
+            const std::size_t tile = index(band, patch.tile);
+            if (!lands_inside(reach, target_size_px)) cut_[tile] = 1;
             if (reach.kind == BoxReach::Kind::behind) continue;
             PixelRect rect{{0, 0}, target_size_px};
             if (reach.kind == BoxReach::Kind::bounded) {
@@ -99,7 +108,7 @@ void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, 
                 const RowRange rows = pixels_of(reach.y, target_size_px.y);
                 rect = {{columns.begin, rows.begin}, {columns.end, rows.end}};
             }
-            rects[patch.tile] = joined(rects[patch.tile], rect);
+            rects_[tile] = joined(rects_[tile], rect);
         }
     }
 }

@@ -9,6 +9,13 @@
 
 namespace lw {
 
+/// Where the points of a tile land, as seen from a part of the target.
+enum class TileLanding : std::uint8_t {
+    outside,   ///< no pixel of it can be seen there
+    crossing,  ///< some may land outside
+    inside,    ///< all of those in front of the eye land inside, with all pixels that they cover
+};
+
 /// Rebuilt for every display frame; reuses its memory.
 class SplatReach {
 public:
@@ -16,20 +23,26 @@ public:
     void build(const SplatTiles& tiles, const ObjectMatrices& matrices, glm::ivec2 target_size_px);
 
     /// Target pixels that points of a tile of `band` can write; empty when none of it is seen. Cut to the target.
-    [[nodiscard]] const PixelRect& rect_of(int band, int tile) const {
-        return rects_[static_cast<std::size_t>(band) * static_cast<std::size_t>(tiles_per_band_) +
-                      static_cast<std::size_t>(tile)];
-    }
+    [[nodiscard]] const PixelRect& rect_of(int band, int tile) const { return rects_[index(band, tile)]; }
+    /// All points of the tile land within rect_of(), which nothing was cut from.
+    [[nodiscard]] bool lands_whole(int band, int tile) const { return cut_[index(band, tile)] == 0; }
     [[nodiscard]] int bands() const { return bands_; }
     [[nodiscard]] int tiles_per_band() const { return tiles_per_band_; }
     [[nodiscard]] glm::ivec2 target_size_px() const { return target_size_px_; }
     [[nodiscard]] int tiles_outside() const;
 
 private:
+    [[nodiscard]] std::size_t index(int band, int tile) const {
+        return static_cast<std::size_t>(band) * static_cast<std::size_t>(tiles_per_band_) +
+               static_cast<std::size_t>(tile);
+    }
+
     glm::ivec2 target_size_px_{0};
     int bands_ = 0;
     int tiles_per_band_ = 0;
-    std::vector<PixelRect> rects_;  // by band and tile
+    // By band and tile.
+    std::vector<PixelRect> rects_;
+    std::vector<std::uint8_t> cut_;  // 1 where some points land beside the target, or nobody knows
 };
 
 }  // namespace lw

@@ -210,7 +210,9 @@ void register_all() {
             });
         }
     }
-    add("prepare/surface", [](benchmark::State& state) { prepare(state, "surface"); });
+    for (const std::string name : {"surface", "surface:threads=2"}) {
+        add("prepare/" + name, [name](benchmark::State& state) { prepare(state, name); });
+    }
     const auto newer_than_avx2 = hwy::SupportedTargets() & (HWY_AVX2 - 1);
     if (newer_than_avx2 != 0 && (hwy::SupportedTargets() & HWY_AVX2) != 0) {
         for (const std::string name : {"splat", "surface"}) {

@@ -183,7 +183,7 @@ public:
 
     [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
         const float unseen_step = flatten_ ? unseen_depth_step(layer.camera) : 0.0F;
-        return classify_surfaces(checked_cpu_pixels(layer), SurfaceUse::cpu_kernels, unseen_step);
+        return classify_surfaces(checked_cpu_pixels(layer), SurfaceUse::cpu_kernels, unseen_step, pool_.threads());
     }
 
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {

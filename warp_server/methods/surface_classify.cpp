@@ -5,6 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <future>
 #include <utility>
 
 #include "core/colour.h"
@@ -214,6 +216,36 @@ private:
     int strip_y_ = 0;
 };
 
+// What is made of the pixels whatever surfaces they show.
+struct Colours {
+    LinearImage linear;
+    LinearImage quarters;
+    std::vector<IdCount> id_counts;
+};
+
+Colours colours_of(const CpuPixels& pixels, SurfaceUse use) {
+    Colours colours;
+    colours.id_counts = count_ids(pixels);
+    if (use != SurfaceUse::cpu_kernels) return colours;
+    colours.linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
+    const bool has_quarters = pixels.quarters.size_px() == kLatticeSteps * pixels.colour.size_px();
+    if (has_quarters) colours.quarters = LinearImage{pixels.quarters};
+    return colours;
+}
+
+void make_lattices(const SurfaceLinks& links, Colours&& colours, PreparedSurface& prepared) {
+    prepared.linear = std::move(colours.linear);
+    if (colours.quarters.size_px() != glm::ivec2{0}) {
+        if (prepared.linear.has_alpha()) {
+            QuarterParts parts{links, prepared.linear, colours.quarters};
+            make_edge_lattices(parts, prepared);
+            parts.join_for_lattice();
+        }
+        prepared.lattice = lattice_between(prepared.linear, std::move(colours.quarters));
+    }
+    if (prepared.linear.has_alpha()) halve_lacks_of_thin_things(links, prepared.linear);
+}
+
 }  // namespace
 
 void PatchList::clear() { *this = {}; }
@@ -226,7 +258,8 @@ void PatchList::reserve(std::size_t count) {
     corners.reserve(count);
 }
 
-std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, SurfaceUse use, float unseen_step) {
+std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels, SurfaceUse use, float unseen_step,
+                                                         int threads) {
     auto prepared = std::make_shared<PreparedSurface>();
     prepared->size_px = pixels.depth.size_px();
     // Enough for most pictures; memory that is not written to costs nothing.
@@ -235,22 +268,14 @@ std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels
     prepared->edges.reserve(pixel_count / 16);
     prepared->tiles.surfaces.reserve(pixel_count / 32);
     prepared->tiles.cells.reserve(pixel_count / 32 * static_cast<std::size_t>(kTileSize));
+    // Where no thread can be had, the colours are made when they are asked for.
+    const auto policy = threads > 1 ? std::launch::async | std::launch::deferred : std::launch::deferred;
+    std::future<Colours> beside = std::async(policy, colours_of, std::cref(pixels), use);
     const SurfaceLinks links{pixels, unseen_step};
     PatchBuilder{links, *prepared}.build();
-    if (use == SurfaceUse::cpu_kernels) {
-        prepared->linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
-        if (pixels.quarters.size_px() == kLatticeSteps * prepared->size_px) {
-            LinearImage quarters{pixels.quarters};
-            if (pixels.alpha_is_share) {
-                QuarterParts parts{links, prepared->linear, quarters};
-                make_edge_lattices(parts, *prepared);
-                parts.join_for_lattice();
-            }
-            prepared->lattice = lattice_between(prepared->linear, std::move(quarters));
-        }
-        if (prepared->linear.has_alpha()) halve_lacks_of_thin_things(links, prepared->linear);
-    }
-    prepared->id_counts = count_ids(pixels);
+    Colours colours = beside.get();
+    prepared->id_counts = std::move(colours.id_counts);
+    if (use == SurfaceUse::cpu_kernels) make_lattices(links, std::move(colours), *prepared);
     prepared->bounds = bounds_of_regions(*prepared);
     prepared->region_costs = costs_of_regions(*prepared);
     return prepared;

@@ -88,9 +88,10 @@ enum class SurfaceUse {
 
 /// Any thread. `pixels` may hold bad depths: they are on no surface.
 /// @param unseen_step  depths of what stands still that lie no farther apart are one surface (unseen_depth_step); >= 0
+/// @param threads      from two on, a thread of its own converts the colours meanwhile; the result is the same
 [[nodiscard]] std::shared_ptr<const PreparedSurface> classify_surfaces(const CpuPixels& pixels,
                                                                        SurfaceUse use = SurfaceUse::cpu_kernels,
-                                                                       float unseen_step = 0.0F);
+                                                                       float unseen_step = 0.0F, int threads = 1);
 
 /// Depths `before, a, b, after` along a line: do a and b lie on one surface? Their difference must be small, or
 /// continue the slope on one side: depth is affine in the pixel coordinates on every plane, at any slant. Negative

@@ -60,7 +60,7 @@ std::vector<std::string> SwitchingMethod::labels() const {
 
 Result<std::unique_ptr<SwitchingMethod>> make_demo_method(const std::string& first, const DemoControls& controls) {
     std::vector<std::string> specifications{first};
-    for (const char* other : {"stale", "rotation", "splat:threads=2", "surface", "inverse"}) {
+    for (const char* other : {"stale", "rotation", "splat:threads=2", "surface:threads=2,flatten=1", "inverse"}) {
         const MethodEntry* entry = find_warp_method(other);
         if (entry == nullptr || entry->needs_gl || name_in(first) == name_in(other)) continue;
         specifications.emplace_back(other);

@@ -280,7 +280,7 @@ std::string footer() {
 
 /// The best method there is: the first of these that was built. Live it must leave time to spare in every refresh of
 /// two busy cores: in the city at 1024x1024 splat was too late for 0.84-1.3 % of the refreshes of a turning head on one
-/// thread and for 0.44-0.84 % on two (four runs each, 6 to 20 s); surface takes about four times as long.
+/// thread and for 0.44-0.84 % on two (four runs each, 6 to 20 s); surface takes two to three times as long.
 std::string default_method(Subcommand subcommand) {
     const bool live = subcommand == Subcommand::demo || subcommand == Subcommand::measure;
     for (const char* name : {live ? "splat:threads=2" : "surface", "splat", "reference"}) {

@@ -159,7 +159,8 @@ TEST(SplatParts, OneThreadHasOneWhileTheHeadIsStillAndPanelsWhereRowsBend) {
     const Layer layer = scene.draw(source, 0.0);
     ASSERT_EQ(parts_of(layer, {source, scene.movers(0.0)}, 1).size(), 1U);
 
-    const WarpTarget turned{moved(source, {}, 30.0), scene.movers(0.0)};
+    const std::vector<ObjectTransform> movers = scene.movers(0.0);
+    const WarpTarget turned{moved(source, {}, 30.0), movers};
     const std::vector<PixelRect> panels = parts_of(layer, turned, 1);
     ASSERT_GT(panels.size(), 1U);
     const Built whole = reach_of(layer, turned);

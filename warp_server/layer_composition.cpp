@@ -261,7 +261,7 @@ WarpCounters LayerComposition::warp_into_scratch(WarpMethod& method, const Layer
         return without_empty(method.counters(), layer);
     }
     WarpCounters counters;
-    resample_by_rotation(layer, target.camera, scratch_, counters);
+    resample_by_rotation(layer, method.label(), target.camera, scratch_, counters);
     return without_empty(counters, layer);
 }
 

@@ -10,6 +10,7 @@
 
 #include "warp_server/methods/lanes.h"
 #include "warp_server/methods/surface_sampling.h"
+#include "warp_server/methods/target_lanes.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
@@ -119,33 +120,8 @@ private:
 
     HWY_INLINE void write(int x, int y, Lanes reached, VF source_x, VF source_y, VF depth) {
         const auto centre = [](VF place) { return hn::Sub(place, hn::Set(DF{}, 0.5F)); };
-        const auto read = encoder_.encoded(reader_.read(reader_.taps_of(centre(source_x), centre(source_y))));
-        const auto colour = hn::IfThenElseZero(hn::RebindMask(DU{}, reached), read);
-        depth = hn::IfThenElseZero(reached, depth);
-        const auto coverage = hn::IfThenElseZero(hn::RebindMask(DI{}, reached), hn::Set(DI{}, 1));
-        const hn::Rebind<std::uint8_t, DF> d8;
-        const std::size_t lanes = hn::Lanes(DF{});
-        const std::size_t index =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(out_.depth.width()) + static_cast<std::size_t>(x);
-        auto* colours = reinterpret_cast<std::uint32_t*>(out_.colour.pixels().data()) + index;
-        auto* coverages = reinterpret_cast<std::uint8_t*>(out_.coverage.pixels().data()) + index;
-        float* depths = out_.depth.pixels().data() + index;
-        const std::size_t count = std::min(lanes, static_cast<std::size_t>(out_.depth.width() - x));
-        if (count == lanes) {
-            hn::StoreU(colour, DU{}, colours);
-            hn::StoreU(depth, DF{}, depths);
-            hn::StoreU(hn::DemoteTo(d8, coverage), d8, coverages);
-            return;
-        }
-        HWY_ALIGN std::uint32_t colour_lanes[kMaxLanes];
-        HWY_ALIGN float depth_lanes[kMaxLanes];
-        HWY_ALIGN std::uint8_t coverage_lanes[kMaxLanes];
-        hn::Store(colour, DU{}, colour_lanes);
-        hn::Store(depth, DF{}, depth_lanes);
-        hn::StoreU(hn::DemoteTo(d8, coverage), d8, coverage_lanes);
-        std::copy_n(colour_lanes, count, colours);
-        std::copy_n(depth_lanes, count, depths);
-        std::copy_n(coverage_lanes, count, coverages);
+        const auto colour = encoder_.encoded(reader_.read(reader_.taps_of(centre(source_x), centre(source_y))));
+        write_target(x, y, reached, colour, depth, out_);
     }
 
     const InverseInput& input_;

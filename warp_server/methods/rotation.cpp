@@ -12,9 +12,13 @@ public:
 
     [[nodiscard]] std::string_view label() const override { return label_; }
 
+    [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
+        return prepare_picture(layer);
+    }
+
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         counters_ = {};
-        resample_by_rotation(layer, target.camera, out, counters_);
+        resample_by_rotation(layer, label_, target.camera, out, counters_);
     }
 
 private:

@@ -16,11 +16,15 @@ public:
 
     [[nodiscard]] bool shows_frames_as_drawn() const override { return true; }
 
+    [[nodiscard]] std::shared_ptr<const PreparedLayer> prepare(const Layer& layer) const override {
+        return prepare_picture(layer);
+    }
+
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         counters_ = {};
         Camera unturned = target.camera;
         unturned.world_from_eye = layer.camera.world_from_eye;
-        resample_by_rotation(layer, unturned, out, counters_);
+        resample_by_rotation(layer, label_, unturned, out, counters_);
     }
 
 private:

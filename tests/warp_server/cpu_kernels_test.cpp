@@ -5,6 +5,7 @@
 #include <hwy/targets.h>
 
 #include <atomic>
+#include <limits>
 
 #include "core/colour.h"
 #include "tests/warp_server/analytic_scene.h"
@@ -81,6 +82,38 @@ TEST_P(VectorMethod, EveryInstructionSetGivesTheSameBytes) {
             EXPECT_TRUE(same_pixels(frame, best)) << hwy::TargetName(set) << " " << size_px.x << "x" << size_px.y;
         }
         hwy::SetSupportedTargetsForTest(0);
+    }
+}
+
+class Resampling : public ::testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(All, Resampling, ::testing::Values("stale", "rotation"));
+
+TEST_P(Resampling, EveryInstructionSetGivesTheSameBytesAndCounts) {
+    const AnalyticScene scene = AnalyticScene::street();
+    InstructionSets sets;
+    for (const glm::ivec2& size_px : {glm::ivec2{131, 67}, glm::ivec2{160, 128}, glm::ivec2{5, 3}, glm::ivec2{1, 1}}) {
+        const Camera source = street_camera(size_px);
+        Layer layer = scene.draw(source, 0.0);
+        const std::span<float> depths = layer.cpu().depth.pixels();
+        for (std::size_t i = 3; i < depths.size(); i += 61) depths[i] = kNoSurfaceDepth;
+        for (std::size_t i = 7; i < depths.size(); i += 67) depths[i] = std::numeric_limits<float>::quiet_NaN();
+        layer.empty_pixels = 1;
+        for (const double roll_deg : {0.0, 2.0, 70.0}) {
+            const WarpTarget target{moved(source, {}, 3.0, 1.0, roll_deg), {}};
+            const auto method = method_named(GetParam());
+            DisplayFrame best;
+            method->warp(layer, target, best);
+            const std::uint64_t bad_depths = method->counters().bad_depth;
+            EXPECT_TRUE(size_px.x < 100 || bad_depths > 50);
+            for (const std::int64_t set : sets.all()) {
+                InstructionSets::use(set);
+                DisplayFrame frame;
+                method->warp(layer, target, frame);
+                EXPECT_TRUE(same_pixels(frame, best)) << hwy::TargetName(set) << " " << size_px.x << "x" << size_px.y;
+                EXPECT_EQ(method->counters().bad_depth, bad_depths) << hwy::TargetName(set);
+            }
+            hwy::SetSupportedTargetsForTest(0);
+        }
     }
 }
 

@@ -1,4 +1,4 @@
-/// Reading colours for `surface`: bilinear in linear light, many pixels at once, and back to sRGB.
+/// Reading the colours of a source: bilinear in linear light, many pixels at once, and back to sRGB.
 
 // Once per instruction set: the guard toggles where `#pragma once` would read this file only the first time.
 #if defined(LW_WARP_SERVER_METHODS_SURFACE_SAMPLING_H) == defined(HWY_TARGET_TOGGLE)

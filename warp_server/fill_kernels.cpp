@@ -47,8 +47,9 @@ HWY_INLINE Candidates<D> background_of(D d, const Candidates<D>& a, const Candid
 }
 
 // Vectors start at multiples of their length, so threads that share a picture at such columns never touch the same
-// pixels, and a run of one pixel takes as long as one of a whole vector. Lanes outside of the part must not be written
-// to the picture; what the scratch holds for them may change, since each of its entries is set before it is used.
+// pixels. Most runs are of a few pixels and take one short vector: a gather takes as long as its vector is wide. Lanes
+// outside of the part must not be written to the picture; what the scratch holds for them may change, since each of its
+// entries is set before it is used.
 template <class Some>
 HWY_INLINE void for_columns(int begin, int end, int width, const Some& some) {
     const DF d;

@@ -146,15 +146,13 @@ LiveSummary summary_of(const LiveResult& result) {
         take_photons(summary);
     }
 
-    std::vector<Duration> warp;
     std::vector<Duration> wake_late;
-    for (const DisplayRecord& refresh : result.refreshes) {
-        if (!refresh.presented) continue;
-        warp.push_back(refresh.warp_time());
-        wake_late.push_back(refresh.latched - refresh.planned_wake);
-        summary.left_out += refresh.counters;
+    for (const DisplayRecord& part : result.parts) {
+        if (!part.presented) continue;
+        wake_late.push_back(part.latched - part.planned_wake);
+        summary.left_out += part.counters;
     }
-    summary.warp_ms = distribution_ms(warp);
+    summary.warp_ms = distribution_ms(warp_times(result.parts, result.strips));
     summary.wake_late_ms = distribution_ms(wake_late);
 
     std::vector<Duration> draw;
@@ -175,6 +173,7 @@ double source_pixels_ratio(const LiveResult& result) {
 void describe_live_run(Report& report, const Options& options, const LiveResult& result) {
     const LiveSummary summary = summary_of(result);
     report.set("settings/source_pixels_ratio", source_pixels_ratio(result));
+    report.set("settings/strips", result.strips);
     report.set("display/hz", options.display_hz);
     report.set("display/refreshes", summary.display.refreshes);
     report.set("display/missed", summary.display.missed);

@@ -34,6 +34,9 @@ constexpr Duration kWatchPeriod = std::chrono::milliseconds{10};
 constexpr Duration kHandsPeriod = std::chrono::milliseconds{2};
 // Room for the refreshes of a run that overruns its time a little.
 constexpr std::size_t kSpareRecords = 1024;
+// Strips of a picture unless --strips says, where the scan-out is known. Two cost the server nothing and give most of
+// what many do; with more of them a client's frame that becomes ready meanwhile is seen in parts more often.
+constexpr int kStripsOfAScanout = 2;
 
 /// The client's rate where its frames must meet the refreshes at every phase: a period that is a whole number of
 /// refreshes, give or take a fifth, gets 0.31 of one more. 0, as fast as it can, drifts by itself.
@@ -90,9 +93,15 @@ private:
     [[nodiscard]] bool has_photon_codes() const {
         return window_ == nullptr && options_.subcommand == Subcommand::measure;
     }
+    /// A window's compositor takes whole pictures, and nobody knows how it scans them out; a GL method draws the whole
+    /// source for every strip; the eyes' pictures are made whole.
+    [[nodiscard]] int strips() const {
+        const bool whole = window_ != nullptr || entry_.needs_gl || options_.stereo.on;
+        return options_.strips.value_or(whole ? 1 : kStripsOfAScanout);
+    }
     [[nodiscard]] std::size_t reserved_parts() const {
         return (static_cast<std::size_t>(options_.seconds * options_.display_hz) + kSpareRecords) *
-               static_cast<std::size_t>(options_.strips);
+               static_cast<std::size_t>(strips());
     }
     void show_until_stopped();
 
@@ -480,7 +489,7 @@ Status LiveSession::make_stereo_warper() {
 
 void LiveSession::watch_photons() {
     PhotonWatchSettings settings;
-    settings.strips = options_.strips;
+    settings.strips = strips();
     settings.reserved_parts = reserved_parts();
     settings.panel_latency = [this](TimePoint scanout) { return result_.injection.delay(Injected::present, scanout); };
     virtual_display_->watch_photons(clock_, settings);
@@ -495,8 +504,7 @@ void LiveSession::show_until_stopped() {
     settings.camera = options_.camera();
     if (options_.lead_given) settings.pacer.fixed_lead = from_ms(options_.lead_ms);
     settings.feedback = options_.shells.on ? &hole_feedback_ : nullptr;
-    settings.strips = options_.strips;
-    settings.pacer.longest_lead_periods = options_.strips;
+    settings.strips = strips();
     settings.photon_codes = has_photon_codes();
     if (window_ != nullptr) {
         settings.on_record = [this](const DisplayRecord& record) {
@@ -513,8 +521,8 @@ void LiveSession::show_until_stopped() {
     if (stop_) server_loop_->request_stop();
     server_loop_->run();
     result_.parts = server_loop_->records();
-    result_.refreshes = worst_strips(result_.parts, options_.strips);
-    result_.strips = options_.strips;
+    result_.strips = settings.strips;
+    result_.refreshes = worst_strips(result_.parts, result_.strips);
     if (virtual_display_) {
         const auto seen = virtual_display_->seen();
         result_.seen.assign(seen.begin(), seen.end());

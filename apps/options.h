@@ -93,7 +93,7 @@ struct Options {
     double lead_ms = 5.0;                  ///< --lead: latch this long before scan-out, milliseconds in [0, 1000]
     bool lead_given = false;               ///< live learns its lead unless this is set
     std::optional<double> app_latency_ms;  ///< --app-latency, milliseconds; one app period in replay unless given
-    int strips = 1;                        ///< --strips: parts of a display frame with a pose of their own, [1, 64]
+    std::optional<int> strips;             ///< --strips: parts of a display frame with a pose of their own, [1, 64]
     InjectedDelays inject;                 ///< --inject, measure only
     AppLoad load;                          ///< --load, live only
     int truth_samples = 2;                 ///< --truth-samples: N x N samples per pixel; 1, 2 or 4

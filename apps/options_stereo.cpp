@@ -101,8 +101,8 @@ Status check_stereo(const Options& options) {
         }
     }
     if (!options.stereo.on) return Done{};
-    if (options.strips > 1) {
-        return Error{"both eyes' pictures cannot be made in strips", fmt::format("--strips {}", options.strips),
+    if (options.strips.value_or(1) > 1) {
+        return Error{"both eyes' pictures cannot be made in strips", fmt::format("--strips {}", *options.strips),
                      "leave out --strips, or --eyes stereo"};
     }
     const auto views = drawn_views_of(options, nullptr);

@@ -138,7 +138,7 @@ void describe_settings(Report& report, const Options& options) {
     set("display_hz", options.display_hz);
     if (options.predict) set("predict", *options.predict);
     set("tracker_hz", options.tracker_hz);
-    set("strips", options.strips);
+    if (options.strips) set("strips", *options.strips);
     if (options.load.triangles > 0.0) set("load/triangles", options.load.triangles);
     if (options.load.stall_ms > 0.0) set("load/stall_ms", options.load.stall_ms);
     set("lead_ms", options.lead_ms);

@@ -15,20 +15,39 @@ bool is_worse(const DisplayRecord& a, const DisplayRecord& b) {
     return b.photon - b.pose_sampled > a.photon - a.pose_sampled;
 }
 
+// Calls `use` with the strips of each whole refresh.
+template <class Use>
+void for_each_refresh(std::span<const DisplayRecord> strips, int count, const Use& use) {
+    const auto per_refresh = static_cast<std::uint64_t>(std::max(1, count));
+    std::size_t first = 0;
+    while (first < strips.size() && strips[first].refresh % per_refresh != 0) ++first;
+    for (; first + per_refresh <= strips.size(); first += per_refresh) use(strips.subspan(first, per_refresh));
+}
+
 }  // namespace
 
 std::vector<DisplayRecord> worst_strips(std::span<const DisplayRecord> strips, int count) {
-    const auto per_refresh = static_cast<std::uint64_t>(std::max(1, count));
     std::vector<DisplayRecord> refreshes;
-    refreshes.reserve(strips.size() / per_refresh);
-    std::size_t first = 0;
-    while (first < strips.size() && strips[first].refresh % per_refresh != 0) ++first;
-    for (; first + per_refresh <= strips.size(); first += per_refresh) {
-        const auto of_refresh = strips.subspan(first, per_refresh);
+    refreshes.reserve(strips.size() / static_cast<std::size_t>(std::max(1, count)));
+    for_each_refresh(strips, count, [&](std::span<const DisplayRecord> of_refresh) {
         refreshes.push_back(*std::max_element(of_refresh.begin(), of_refresh.end(), is_worse));
-        refreshes.back().refresh /= per_refresh;
-    }
+        refreshes.back().refresh /= of_refresh.size();
+    });
     return refreshes;
+}
+
+std::vector<Duration> warp_times(std::span<const DisplayRecord> strips, int count) {
+    std::vector<Duration> times;
+    times.reserve(strips.size() / static_cast<std::size_t>(std::max(1, count)));
+    for_each_refresh(strips, count, [&](std::span<const DisplayRecord> of_refresh) {
+        Duration sum{};
+        for (const DisplayRecord& strip : of_refresh) {
+            if (!strip.presented) return;
+            sum += strip.warp_time();
+        }
+        times.push_back(sum);
+    });
+    return times;
 }
 
 SeenLatencies seen_latencies(std::span<const DisplayRecord> records) {

@@ -48,6 +48,9 @@ struct DisplayRecord {
 /// count again. Refreshes at either end that lack strips are left out. Pure; with one strip a copy.
 [[nodiscard]] std::vector<DisplayRecord> worst_strips(std::span<const DisplayRecord> strips, int count);
 
+/// Time that warping took for each refresh, its strips added up; those that lack a strip are left out. Pure.
+[[nodiscard]] std::vector<Duration> warp_times(std::span<const DisplayRecord> strips, int count);
+
 /// Ages of what a viewer saw, one entry per refresh at which there was a picture.
 struct SeenLatencies {
     std::vector<Duration> motion_to_photon;  ///< photon time minus the newest head sample used for what was on screen

@@ -6,15 +6,15 @@
 namespace lw {
 
 PacerPlan Pacer::next_wake(TimePoint now, const Refresh& next) const {
+    if (settings_.fixed_lead) return {next, std::max(now, next.scanout_begin - *settings_.fixed_lead)};
     Refresh refresh = next;
     const bool too_slow = is_too_slow_for(next.period);
     const Duration slow_needs = ordinary_work_ + margin(next.period);
-    if (!settings_.fixed_lead) {
-        const Duration least = too_slow ? slow_needs : ordinary_work_;
-        while (refresh.scanout_begin - now < least) {
-            ++refresh.number;
-            refresh.scanout_begin += next.period;
-        }
+    const Duration least = too_slow ? slow_needs : ordinary_work_;
+    const int step = too_slow ? settings_.strips : 1;
+    while (refresh.scanout_begin - now < least) {
+        refresh.number += static_cast<std::uint64_t>(step);
+        refresh.scanout_begin += next.period * step;
     }
     const Duration needed = too_slow ? slow_needs : lead(next.period);
     return {refresh, std::max(now, refresh.scanout_begin - needed)};
@@ -22,7 +22,7 @@ PacerPlan Pacer::next_wake(TimePoint now, const Refresh& next) const {
 
 Duration Pacer::lead(Duration period) const {
     if (settings_.fixed_lead) return *settings_.fixed_lead;
-    const Duration longest = period * settings_.longest_lead_periods;
+    const Duration longest = period * settings_.strips;
     if (work_count_ < kEnough) return from_seconds(kUnlearntLead * to_seconds(longest));
     return std::min(expected_work_ + fast_growth_ + margin(period), longest);
 }
@@ -41,7 +41,7 @@ void Pacer::finished(const PacerOutcome& outcome) {
     fast_growth_ = std::max(largest_but(growth_, left_out), Duration{});
 
     const Duration period = outcome.refresh.period;
-    const Duration longest_lead = period * settings_.longest_lead_periods;
+    const Duration longest_lead = period * settings_.strips;
     const bool missed = outcome.presented > outcome.refresh.scanout_begin && work <= longest_lead;
     const Duration change = missed ? settings_.miss_step : -settings_.miss_step / kHitsPerMiss;
     const Duration smallest = smallest_margin(period);
@@ -49,7 +49,8 @@ void Pacer::finished(const PacerOutcome& outcome) {
 }
 
 Duration Pacer::smallest_margin(Duration period) const {
-    return std::clamp(period / 8, settings_.smallest_margin, settings_.enough_margin);
+    const PacerSettings::Margin& margin = settings_.strips == 1 ? settings_.whole_margin : settings_.strip_margin;
+    return std::clamp(from_seconds(margin.share * to_seconds(period)), margin.least, margin.most);
 }
 
 Duration Pacer::largest_but(const Window& window, std::size_t larger) const {

@@ -18,14 +18,21 @@ namespace lw {
 struct PacerSettings {
     /// Latch exactly this long before each scan-out (--lead); learnt when empty. >= 0.
     std::optional<Duration> fixed_lead;
-    /// The lead is never less than what the work is expected to take and may grow by, plus this: an eighth of a period,
-    /// since strips take little and grow by little, within these bounds. In runs of a minute no growth went beyond the
-    /// 99th percentile by more than a millisecond and a half.
-    Duration smallest_margin = from_ms(0.3);
-    Duration enough_margin = from_ms(1.5);
-    /// The lead is at most so many periods: 1 for whole pictures, since an earlier one would overtake the one before;
-    /// strips may be made as many slots ahead as a refresh has.
-    int longest_lead_periods = 1;
+    /// Each refresh is made in so many strips, and the periods that the pacer is told of are theirs. The lead is at
+    /// most so many of them, one refresh: an earlier picture would overtake the one before.
+    int strips = 1;
+    /// The lead is never less than what the work is expected to take and may grow by, plus the share's part of a
+    /// period, within these bounds. Of whole pictures in runs of a minute no growth went beyond the 99th percentile by
+    /// more than a millisecond and a half. A strip follows its latch sooner, and spends part of what that gains on
+    /// being ready: halves with this margin missed a third as often as whole pictures did, and were 3 ms younger all
+    /// the same.
+    struct Margin {
+        double share;
+        Duration least;
+        Duration most;
+    };
+    Margin whole_margin{0.125, from_ms(0.3), from_ms(1.5)};
+    Margin strip_margin{0.8, from_ms(0.3), from_ms(4.5)};
     /// What a missed refresh adds to the margin, where more lead would have helped: work longer than the longest lead
     /// is nothing to be ready for.
     Duration miss_step = from_ms(0.25);
@@ -52,7 +59,8 @@ public:
     /// `next` is the first refresh that still lacks a picture (Presenter::next_refresh). The plan is made for it, or,
     /// when the time left is less than the work ordinarily takes, for the first refresh that can still be reached: a
     /// picture predicted to the time it is really shown is worth more than an attempt that is bound to be late, and a
-    /// single overrun then costs one refresh more instead of delaying all that follow. `next.scanout_begin` > `now`.
+    /// single overrun then costs one refresh more instead of delaying all that follow. Where the work is too slow for
+    /// every strip, that is the same strip of a later refresh. `next.scanout_begin` > `now`.
     [[nodiscard]] PacerPlan next_wake(TimePoint now, const Refresh& next) const;
 
     /// Learns from a finished refresh. A late wake-up counts as work: on a machine that wakes threads late the lead has
@@ -60,14 +68,12 @@ public:
     /// takes 1/kHitsPerMiss of that back.
     void finished(const PacerOutcome& outcome);
 
-    /// Time from waking to scan-out that next_wake() uses for a display of this period. At most
-    /// `longest_lead_periods` of them.
+    /// Time from waking to scan-out that next_wake() uses for a display of this period. At most a refresh, where it is
+    /// learnt.
     [[nodiscard]] Duration lead(Duration period) const;
 
     /// The work ordinarily takes longer than a period of this length: not every refresh can get a picture.
-    [[nodiscard]] bool is_too_slow_for(Duration period) const {
-        return !settings_.fixed_lead && ordinary_work_ > period;
-    }
+    [[nodiscard]] bool is_too_slow_for(Duration period) const { return ordinary_work_ > period; }
 
     static constexpr int kHitsPerMiss = 500;
     /// Work times, and growths, remembered: 6 s at 90 Hz, so that one disturbance is forgotten after that. Half as

@@ -10,10 +10,16 @@ namespace {
 // Of the view. Other layers are as old as they may be: what is behind the head is seldom drawn.
 TimePoint view_pose_sampled(const RenderedFrame& frame) { return frame.layers.front()->pose_sampled; }
 
+PacerSettings pacer_settings(const ServerSettings& settings) {
+    PacerSettings pacer = settings.pacer;
+    pacer.strips = settings.strips;
+    return pacer;
+}
+
 }  // namespace
 
 ServerLoop::ServerLoop(const ServerParts& parts, const ServerSettings& settings)
-    : parts_{parts}, settings_{settings}, pacer_{settings.pacer} {
+    : parts_{parts}, settings_{settings}, pacer_{pacer_settings(settings)} {
     // Written, not only reserved: no picture waits for the machine to find memory, and a long run takes no more of it.
     records_.resize(settings.reserved_refreshes);
     records_.clear();
@@ -24,10 +30,8 @@ void ServerLoop::run() {
 }
 
 void ServerLoop::show_next() {
-    // A refresh gets one picture: after an early one, the next refresh is the one after it.
     const TimePoint now = parts_.clock.now();
-    const Refresh next = next_slot(parts_.presenter, std::max(now, last_refresh_.scanout_begin), settings_.strips);
-    const PacerPlan plan = pacer_.next_wake(now, next);
+    const PacerPlan plan = pacer_.next_wake(now, next_slot_after(now));
     if (has_shown_) record_passed_over(plan.refresh);
     last_refresh_ = plan.refresh;
 
@@ -49,6 +53,19 @@ void ServerLoop::show_next() {
         return;
     }
     make_picture(*frame, plan, timing);
+}
+
+Refresh ServerLoop::next_slot_after(TimePoint now) const {
+    // A refresh gets one picture: after an early one, the next refresh is the one after it.
+    Refresh next = next_slot(parts_.presenter, std::max(now, last_refresh_.scanout_begin), settings_.strips);
+    if (!pacer_.is_too_slow_for(next.period)) return next;
+    // Slots have to be passed over. Strips take turns, lest one be made again and again and another one never.
+    const auto strips = static_cast<std::uint64_t>(settings_.strips);
+    while (next.number % strips != (last_refresh_.number + 1) % strips) {
+        ++next.number;
+        next.scanout_begin += next.period;
+    }
+    return next;
 }
 
 void ServerLoop::warm_up(const RenderedFrame& frame, const Refresh& refresh) {

@@ -90,6 +90,7 @@ private:
     /// Head pose predicted to photon time; the last good one if it is unusable.
     [[nodiscard]] PredictedPose head_at(TimePoint now, TimePoint photon);
     [[nodiscard]] WarpTarget target_at(const Pose& world_from_head, const Refresh& slot);
+    [[nodiscard]] Refresh next_slot_after(TimePoint now) const;
     [[nodiscard]] Strip strip_of(const Refresh& slot) const;
     void present(const Refresh& slot);
     void report_holes(const RenderedFrame& frame, const Camera& target, const Refresh& slot);

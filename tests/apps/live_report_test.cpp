@@ -34,6 +34,7 @@ LiveResult small_run() {
     result.refreshes[3].cause = MissCause::own;
     result.refreshes[4].presented = std::nullopt;
     result.refreshes[4].cause = MissCause::late_wakeup;
+    result.parts = result.refreshes;
     for (std::uint64_t i = 0; i < 3; ++i) {
         ClientFrameRecord frame;
         frame.index = i + 1;
@@ -65,6 +66,16 @@ TEST(LiveReport, LatenciesAreThoseOfRefreshes) {
     EXPECT_DOUBLE_EQ(summary.motion_to_photon_ms->min, 9.0);
     EXPECT_DOUBLE_EQ(summary.motion_to_photon_ms->max, 19.0);  // at the missed refreshes
     EXPECT_DOUBLE_EQ(summary.warp_ms->p50, 3.0);
+}
+
+TEST(LiveReport, AddsUpWhatTheStripsOfARefreshTook) {
+    LiveResult result = small_run();
+    result.strips = 2;
+    // Ten strips of five refreshes; refresh 51 lacks one, and its other one was late.
+    const LiveSummary summary = summary_of(result);
+    EXPECT_DOUBLE_EQ(summary.warp_ms->min, 6.0);
+    EXPECT_DOUBLE_EQ(summary.warp_ms->max, 6.0);
+    EXPECT_EQ(warp_times(result.parts, 2).size(), 4u);
 }
 
 TEST(LiveReport, AnEmptyRunHasNoNumbersAndNoPicture) {

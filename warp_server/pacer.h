@@ -24,8 +24,8 @@ struct PacerSettings {
     /// The lead is never less than what the work is expected to take and may grow by, plus the share's part of a
     /// period, within these bounds. Of whole pictures in runs of a minute no growth went beyond the 99th percentile by
     /// more than a millisecond and a half. A strip follows its latch sooner, and spends part of what that gains on
-    /// being ready: halves with this margin missed a third as often as whole pictures did, and were 3 ms younger all
-    /// the same.
+    /// being ready: work that takes thrice as long once a minute. Halves miss next to nothing with this margin, and are
+    /// 2 to 3 ms younger than whole pictures all the same (docs/latency.md).
     struct Margin {
         double share;
         Duration least;

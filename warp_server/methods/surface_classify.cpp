@@ -67,6 +67,9 @@ private:
     // True when the whole block is one plane, which the caller must add; else everything in it has been added.
     bool merge_block(int x, int y, int size, BlockPlane& plane) {
         if (size <= kFirstBlock) return plane_or_parts(x, y, size, plane);
+        // Whole first: one look at each pixel of a large plane, and of what is none a look at its first pixels.
+        plane = plane_through_corners(x, y, {size, size});
+        if (is_plane(x, y, size, plane)) return true;
         const int half = size / 2;
         std::array<BlockPlane, 4> planes;
         std::array<bool, 4> exists{};
@@ -80,7 +83,6 @@ private:
             whole[i] = merge_block(child_x, child_y, half, planes[i]);
             all_whole = all_whole && whole[i];
         }
-        plane = plane_through_corners(x, y, {size, size});
         if (all_whole && children_agree(x, y, half, exists, planes, plane)) return true;
         for (std::size_t i = 0; i < 4; ++i) {
             const int child_x = x + ((i & 1U) != 0 ? half : 0);

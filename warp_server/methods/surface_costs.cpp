@@ -1,7 +1,6 @@
 #include "warp_server/methods/surface_costs.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -32,16 +31,24 @@ float cost_of_patches(const PatchList& list, std::size_t begin, std::size_t end)
     return cost;
 }
 
+// Of eight numbers of four bits.
+std::uint32_t sum_of_nibbles(std::uint32_t nibbles) {
+    const std::uint32_t pairs = (nibbles & 0x0F0F0F0FU) + (nibbles >> 4U & 0x0F0F0F0FU);
+    return (pairs * 0x01010101U) >> 24U;
+}
+
 float cost_of_tile(const SurfaceTiles& tiles, std::size_t tile) {
-    float cost = kCostPerTile;
+    constexpr std::uint32_t kFirstOfFour = 0x11111111;
+    std::uint32_t whole = 0;  // cells by column, at most eight in each: they fit its four bits
+    std::uint32_t any = 0;
     for (std::size_t row = 0; row < std::size_t{kTileSize}; ++row) {
         const std::uint32_t cells = tiles.cells[tile * std::size_t{kTileSize} + row];
-        constexpr std::uint32_t kFirstOfFour = 0x11111111;
-        const int whole = std::popcount(cells & cells >> 1U & cells >> 2U & cells >> 3U & kFirstOfFour);
-        const int any = std::popcount((cells | cells >> 1U | cells >> 2U | cells >> 3U) & kFirstOfFour);
-        cost += kCostPerLonePixel * static_cast<float>(whole) + kCostPerEdgeCell * static_cast<float>(any - whole);
+        whole += cells & cells >> 1U & cells >> 2U & cells >> 3U & kFirstOfFour;
+        any += (cells | cells >> 1U | cells >> 2U | cells >> 3U) & kFirstOfFour;
     }
-    return cost;
+    const std::uint32_t whole_cells = sum_of_nibbles(whole);
+    return kCostPerTile + kCostPerLonePixel * static_cast<float>(whole_cells) +
+           kCostPerEdgeCell * static_cast<float>(sum_of_nibbles(any) - whole_cells);
 }
 
 }  // namespace

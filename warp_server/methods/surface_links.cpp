@@ -58,7 +58,7 @@ void fill_row(const CpuPixels& pixels, int y, PaddedRow& row) {
 
 // on_one_surface for Lanes(d) pixels a whose neighbours b follow. Depths of other objects than a's count as -1.
 template <class D, class V = hn::Vec<D>>
-auto linked(D d, V before, V a, V b, V after, V unseen) {
+HWY_INLINE auto linked(D d, V before, V a, V b, V after, V unseen) {
     const V zero = hn::Zero(d);
     const V step = hn::Sub(b, a);
     const V size = hn::Abs(step);
@@ -201,16 +201,21 @@ SurfaceLinks::SurfaceLinks(const CpuPixels& pixels, float unseen_step) : pixels_
 }
 
 bool SurfaceLinks::diagonal(int x, int y, int step_x) const {
-    const auto inside = [&](int at_x, int at_y) {
-        return glm::clamp(glm::ivec2{at_x, at_y}, glm::ivec2{0}, size_px() - 1);
-    };
-    const glm::ivec2 own = inside(x, y);
+    const glm::ivec2 last = size_px() - 1;
+    const auto inside = [&](glm::ivec2 at) { return glm::clamp(at, glm::ivec2{0}, last); };
+    const glm::ivec2 own = inside({x, y});
     const ObjectId id = pixels_->object_id.at(own.x, own.y);
+    const float step = unseen_step(id);
+    const auto is_inside = [&](int at_x) { return at_x >= 0 && at_x <= last.x; };
+    if (is_inside(x - step_x) && is_inside(x + 2 * step_x) && y >= 1 && y + 2 <= last.y) {
+        const auto depth_along = [&](int steps) { return depth_of(id, x + steps * step_x, y + steps); };
+        return on_one_surface(depth_along(-1), depth_along(0), depth_along(1), depth_along(2), step);
+    }
     const auto depth_along = [&](int steps) {
-        const glm::ivec2 at = inside(x + steps * step_x, y + steps);
+        const glm::ivec2 at = inside({x + steps * step_x, y + steps});
         return depth_of(id, at.x, at.y);
     };
-    return on_one_surface(depth_along(-1), depth_along(0), depth_along(1), depth_along(2), unseen_step(id));
+    return on_one_surface(depth_along(-1), depth_along(0), depth_along(1), depth_along(2), step);
 }
 
 std::uint8_t SurfaceLinks::all_links(int x, int y) const {

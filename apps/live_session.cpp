@@ -70,6 +70,7 @@ private:
     Status start_client();
     Status start_server();
     void watch();
+    void update_hands(const HeadInput& input, Duration step);
     void update_movers();
     void follow_keys();
     void show_next_layout();
@@ -194,6 +195,8 @@ Result<LiveResult> LiveSession::run(bool window) {
     if (status) {
         trace_feed_ = std::make_shared<const TraceFeed>(trace_, clock_.now(), options_.tracker_hz);
         if (options_.inject.any()) begin_injection();
+        update_hands({}, Duration{});
+        update_movers();
     }
     go_.set_value(status.ok());
     if (status) watch();
@@ -240,8 +243,7 @@ void LiveSession::watch() {
         }
         const HeadInput input = window_->wait_for_input(kHandsPeriod);
         const TimePoint now = clock_.now();
-        user_head_.advance(input, now - last, trace_feed_->pose_at(now));
-        hands_feed_.push(now, user_head_.pose());
+        update_hands(input, now - last);
         last = now;
         follow_keys();
         show_overlay(now);
@@ -250,6 +252,13 @@ void LiveSession::watch() {
     stop_ = true;
     if (ServerLoop* loop = running_server_) loop->request_stop();
     if (ClientLoop* loop = running_client_) loop->request_stop();
+}
+
+// Once before there is anybody to ask for the head: it would be at the world's origin.
+void LiveSession::update_hands(const HeadInput& input, Duration step) {
+    const TimePoint now = clock_.now();
+    user_head_.advance(input, step, trace_feed_->pose_at(now));
+    hands_feed_.push(now, user_head_.pose());
 }
 
 // As an application would that moves its objects a hundred times a second: the server predicts from there.

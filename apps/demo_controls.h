@@ -19,11 +19,15 @@ public:
     /// Rates of the client that the keys step through, 0 being as fast as it can.
     static constexpr std::array<double, 8> kAppRates_hz{1.0, 2.0, 5.0, 10.0, 15.0, 20.0, 30.0, 0.0};
 
+    /// Strips of a picture double with their key up to so many, and are one again.
+    static constexpr int kMostStrips = 8;
+
     std::atomic<std::size_t> method{0};  ///< index in the list of SwitchingMethod
     std::atomic<bool> holes_shown{false};
     std::atomic<bool> false_colours{false};  ///< which shell each pixel comes from
     std::atomic<bool> renderer_frozen{false};
     std::atomic<std::size_t> app_rate{kAppRates_hz.size() - 1};
+    std::atomic<int> strips{1};
     std::atomic<bool> overlay_shown{true};
     std::atomic<bool> recording{false};
 };

@@ -16,8 +16,8 @@ std::vector<std::string> help_lines(const DemoControls& controls, const DemoStat
                         controls.renderer_frozen ? "FROZEN" : "FREEZE",
                         rate_hz > 0.0 ? fmt::format("{:.0f} HZ", rate_hz) : "UNTHROTTLED",
                         controls.holes_shown ? ": SHOWN" : ""),
-            fmt::format("DRAG LOOK   W A S D E C MOVE   L LAYERS   {}O OVERLAY   R {}   Q QUIT",
-                        state.two_eyes ? "T EYES   " : "",
+            fmt::format("DRAG LOOK   WASDEC MOVE   {}   L LAYERS   O OVERLAY   R {}   Q QUIT",
+                        state.two_eyes ? std::string{"T EYES"} : fmt::format("P STRIPS {}", controls.strips.load()),
                         controls.recording ? fmt::format("RECORDING {}", state.frames_recorded) : "RECORD")};
 }
 

@@ -77,7 +77,7 @@ std::string latency_page(const Options& options, const LiveResult& result, const
     page.add_plot(histogram_of("Motion to photon", "ms", over(harness.refreshes, &SeenRefresh::motion_to_photon)));
     page.add_plot(histogram_of("Frame age", "ms", over(harness.refreshes, &SeenRefresh::frame_age)));
     std::vector<double> warp_ms;
-    for (const Duration time : warp_times(result.parts, result.strips)) warp_ms.push_back(to_ms(time));
+    for (const Duration time : result.warp_times) warp_ms.push_back(to_ms(time));
     std::vector<double> late_ms;
     for (const DisplayRecord& part : result.parts) {
         if (!part.presented) continue;

@@ -152,7 +152,7 @@ LiveSummary summary_of(const LiveResult& result) {
         wake_late.push_back(part.latched - part.planned_wake);
         summary.left_out += part.counters;
     }
-    summary.warp_ms = distribution_ms(warp_times(result.parts, result.strips));
+    summary.warp_ms = distribution_ms(result.warp_times);
     summary.wake_late_ms = distribution_ms(wake_late);
 
     std::vector<Duration> draw;

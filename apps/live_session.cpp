@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <thread>
 
@@ -74,6 +75,8 @@ private:
     void update_movers();
     void follow_keys();
     void show_next_layout();
+    void show_in_next_strips();
+    void stop_server();
     void show_overlay(TimePoint now);
     [[nodiscard]] bool is_over(TimePoint& end) const;
 
@@ -94,17 +97,19 @@ private:
     [[nodiscard]] bool has_photon_codes() const {
         return window_ == nullptr && options_.subcommand == Subcommand::measure;
     }
-    /// A window's compositor takes whole pictures, and nobody knows how it scans them out; a GL method draws the whole
-    /// source for every strip; the eyes' pictures are made whole.
-    [[nodiscard]] int strips() const {
+    /// To begin with. A window's compositor takes whole pictures, and nobody knows how it scans them out; a GL method
+    /// draws the whole source for every strip; the eyes' pictures are made whole.
+    [[nodiscard]] int first_strips() const {
         const bool whole = window_ != nullptr || entry_.needs_gl || options_.stereo.on;
         return options_.strips.value_or(whole ? 1 : kStripsOfAScanout);
     }
     [[nodiscard]] std::size_t reserved_parts() const {
         return (static_cast<std::size_t>(options_.seconds * options_.display_hz) + kSpareRecords) *
-               static_cast<std::size_t>(strips());
+               static_cast<std::size_t>(controls_.strips);
     }
     void show_until_stopped();
+    void show_in_strips(ServerSettings& settings, Presenter& presenter);
+    void take_results(const ServerLoop& loop, int strips);
 
     [[nodiscard]] const HeadPoseFeed& head() const {
         if (window_ != nullptr) return hands_feed_;
@@ -144,8 +149,9 @@ private:
     std::vector<DrawnView> views_;
     const gl::Context* client_context_ = nullptr;
 
+    DemoControls controls_;  ///< only a window has keys for them
+
     // The demo's window only.
-    DemoControls controls_;
     SwitchingMethod* demo_method_ = nullptr;  ///< the warper's
     std::unique_ptr<ClipRecorder> clip_;
     DemoOverlay overlay_{options_.size_px, options_.display_hz};
@@ -161,10 +167,11 @@ private:
     std::future<void> may_drop_warper_{client_stopped_.get_future()};
     std::future<void> may_drop_frames_{server_ended_.get_future()};
     std::atomic<bool> stop_{false};
+    std::atomic<bool> show_on_{false};  ///< the server's loop was stopped to go on with other strips
     // Made by their threads, stopped by the main thread through the pointers, and alive until the session ends.
+    std::mutex server_mutex_;  ///< while there is another loop to stop
     std::optional<ServerLoop> server_loop_;
     std::optional<ClientLoop> client_loop_;
-    std::atomic<ServerLoop*> running_server_{nullptr};
     std::atomic<ClientLoop*> running_client_{nullptr};
 };
 
@@ -183,6 +190,7 @@ Result<LiveResult> LiveSession::run(bool window) {
     if (window) {
         if (Status opened = open_window(); !opened) return opened.error();
     }
+    controls_.strips = first_strips();
     std::thread{[this] { realtime_allowed_ = take_realtime_priority(); }}.join();
 
     std::thread client{[this] { client_thread(); }};
@@ -250,7 +258,7 @@ void LiveSession::watch() {
         if (Status clip = clip_->write(); !clip) print_warnings({clip.error().message()}, false);
     }
     stop_ = true;
-    if (ServerLoop* loop = running_server_) loop->request_stop();
+    stop_server();
     if (ClientLoop* loop = running_client_) loop->request_stop();
 }
 
@@ -278,6 +286,7 @@ void LiveSession::follow_keys() {
         if (key == 'O') controls_.overlay_shown = !controls_.overlay_shown;
         if (key == 'R') controls_.recording = !controls_.recording;
         if (key == 'T') show_next_layout();
+        if (key == 'P') show_in_next_strips();
         const std::size_t rate = controls_.app_rate;
         if (key == '+') controls_.app_rate = std::min(rate + 1, DemoControls::kAppRates_hz.size() - 1);
         if (key == '-') controls_.app_rate = rate == 0 ? 0 : rate - 1;
@@ -297,6 +306,20 @@ void LiveSession::show_next_layout() {
     constexpr std::array kLayouts{EyeLayout::side_by_side, EyeLayout::top_bottom, EyeLayout::anaglyph};
     layout_ = (layout_ + 1) % kLayouts.size();
     stereo_->set_layout(kLayouts[layout_]);
+}
+
+// What the pacer has learnt of strips says nothing about others, so another loop goes on.
+void LiveSession::show_in_next_strips() {
+    if (stereo_ != nullptr) return;
+    const int more = 2 * controls_.strips;
+    controls_.strips = more > DemoControls::kMostStrips ? 1 : more;
+    show_on_ = true;
+    stop_server();
+}
+
+void LiveSession::stop_server() {
+    const std::lock_guard lock{server_mutex_};
+    if (server_loop_) server_loop_->request_stop();
 }
 
 void LiveSession::show_overlay(TimePoint now) {
@@ -498,7 +521,7 @@ Status LiveSession::make_stereo_warper() {
 
 void LiveSession::watch_photons() {
     PhotonWatchSettings settings;
-    settings.strips = strips();
+    settings.strips = controls_.strips;
     settings.reserved_parts = reserved_parts();
     settings.panel_latency = [this](TimePoint scanout) { return result_.injection.delay(Injected::present, scanout); };
     virtual_display_->watch_photons(clock_, settings);
@@ -513,7 +536,6 @@ void LiveSession::show_until_stopped() {
     settings.camera = options_.camera();
     if (options_.lead_given) settings.pacer.fixed_lead = from_ms(options_.lead_ms);
     settings.feedback = options_.shells.on ? &hole_feedback_ : nullptr;
-    settings.strips = strips();
     settings.photon_codes = has_photon_codes();
     if (window_ != nullptr) {
         settings.on_record = [this](const DisplayRecord& record) {
@@ -521,29 +543,44 @@ void LiveSession::show_until_stopped() {
             if (one_eye_ != nullptr) one_eye_->set_false_colours(controls_.false_colours);
         };
     }
-    settings.reserved_refreshes = reserved_parts();
     settings.thread_cpu_time = entry_.needs_gl ? nullptr : thread_cpu_time;
     Presenter& presenter = window_ != nullptr ? static_cast<Presenter&>(*window_) : *virtual_display_;
-    server_loop_.emplace(ServerParts{clock_, *exchange_, head(), movers_, *server_predictor_, *warper_, presenter},
-                         settings);
-    running_server_ = &*server_loop_;
-    if (stop_) server_loop_->request_stop();
-    server_loop_->run();
-    result_.parts = server_loop_->records();
-    result_.strips = settings.strips;
-    result_.refreshes = worst_strips(result_.parts, result_.strips);
+    do {
+        show_in_strips(settings, presenter);
+    } while (show_on_.exchange(false) && !stop_);
     if (virtual_display_) {
         const auto seen = virtual_display_->seen();
         result_.seen.assign(seen.begin(), seen.end());
         result_.true_head = trace_feed_;
     }
-    result_.app_frames_shown = server_loop_->frames_shown();
-    result_.bad_head_poses = server_loop_->bad_head_poses();
-    result_.bad_placements = server_loop_->held().bad_placement;
-    result_.bad_layers = server_loop_->held().bad_layer;
     result_.display_camera = settings.camera;
     if (stereo_ == nullptr) return;
     for (const Eye eye : kEyes) result_.last_eyes.push_back(stereo_->eye(eye).display_frame().colour);
+}
+
+void LiveSession::show_in_strips(ServerSettings& settings, Presenter& presenter) {
+    settings.strips = controls_.strips;
+    settings.reserved_refreshes = reserved_parts();
+    {
+        const std::lock_guard lock{server_mutex_};
+        server_loop_.emplace(ServerParts{clock_, *exchange_, head(), movers_, *server_predictor_, *warper_, presenter},
+                             settings);
+        if (stop_) server_loop_->request_stop();
+    }
+    server_loop_->run();
+    take_results(*server_loop_, settings.strips);
+}
+
+void LiveSession::take_results(const ServerLoop& loop, int strips) {
+    const auto append = [](auto& all, const auto& more) { all.insert(all.end(), more.begin(), more.end()); };
+    append(result_.parts, loop.records());
+    append(result_.refreshes, worst_strips(loop.records(), strips));
+    append(result_.warp_times, warp_times(loop.records(), strips));
+    result_.strips = strips;
+    result_.app_frames_shown += loop.frames_shown();
+    result_.bad_head_poses += loop.bad_head_poses();
+    result_.bad_placements += loop.held().bad_placement;
+    result_.bad_layers += loop.held().bad_layer;
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ struct SourceView {
 struct LiveResult {
     std::vector<DisplayRecord> refreshes;  ///< since the first picture; of each its worst strip
     std::vector<DisplayRecord> parts;      ///< the same by strips; equal to `refreshes` where pictures are whole
-    int strips = 1;
+    std::vector<Duration> warp_times;      ///< of refreshes whose strips were all made: theirs added up
+    int strips = 1;                        ///< in the end: a key of the window changes it
     std::vector<SeenPart> seen;  ///< what the display scanned out; empty in a window, which nobody can read back
     /// What the head did; null where a viewer's hands moved it.
     std::shared_ptr<const ForeseeingHeadPoseFeed> true_head;

@@ -56,8 +56,9 @@ void ServerLoop::show_next() {
 }
 
 Refresh ServerLoop::next_slot_after(TimePoint now) const {
-    // A refresh gets one picture: after an early one, the next refresh is the one after it.
-    Refresh next = next_slot(parts_.presenter, std::max(now, last_refresh_.scanout_begin), settings_.strips);
+    // A slot gets one picture: after an early one, the next is the one after it. It begins after the middle of the
+    // last; after its beginning begins itself where that was rounded down, some slots ahead.
+    Refresh next = next_slot(parts_.presenter, std::max(now, last_refresh_.photon()), settings_.strips);
     if (!pacer_.is_too_slow_for(next.period)) return next;
     // Slots have to be passed over. Strips take turns, lest one be made again and again and another one never.
     const auto strips = static_cast<std::uint64_t>(settings_.strips);

@@ -98,6 +98,7 @@ LiveResult simulate(const Machine& machine, double seconds) {
     }
     result.parts = loop.records();
     result.refreshes = worst_strips(result.parts, machine.strips);
+    result.warp_times = warp_times(result.parts, machine.strips);
     const auto seen = display.seen();
     result.seen.assign(seen.begin(), seen.end());
     return result;

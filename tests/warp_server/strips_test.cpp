@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
+#include <random>
+#include <utility>
 #include <vector>
 
 #include "tests/warp_server/simulated_display.h"
@@ -72,9 +75,10 @@ TEST(Strips, PutTogetherAreTheWholePicture) {
 }
 
 struct StripRig {
-    explicit StripRig(int strips, double work_ms)
-        : warper{std::make_unique<test::TimedMethod>(clock, [work_ms] { return from_ms(work_ms); }),
-                 std::make_unique<test::NoFill>()},
+    StripRig(int strips, double work_ms) : StripRig{strips, [work_ms] { return from_ms(work_ms); }, TimePoint{}} {}
+    StripRig(int strips, std::function<Duration()> work, TimePoint start)
+        : warper{std::make_unique<test::TimedMethod>(clock, std::move(work)), std::make_unique<test::NoFill>()},
+          display{start, 90.0, {16, 64}},
           loop{ServerParts{clock, exchange, head, movers, predictor, warper, display}, settings(strips)} {
         exchange.publish(test::plain_frame(1, TimePoint{}, Rgba8{10, 20, 30, 255}));
         for (int i = 0; i < 400; ++i) loop.show_next();
@@ -92,7 +96,7 @@ struct StripRig {
     test::StillMovers movers{0};
     test::NewestSample predictor;
     FrameWarper warper;
-    VirtualDisplay display{TimePoint{}, 90.0, {16, 64}};
+    VirtualDisplay display;
     ServerLoop loop;
 };
 
@@ -136,8 +140,26 @@ TEST(Strips, TakeTurnsWhereTheWorkIsTooSlow) {
                 if (part.presented) ++made[part.refresh % made.size()];
             }
             const auto [fewest, most] = std::ranges::minmax(made);
+            const auto& parts = rig.loop.records();
+            for (std::size_t i = 1; i < parts.size(); ++i) {
+                ASSERT_EQ(parts[i].refresh, parts[i - 1].refresh + 1) << strips << " strips of " << work_ms << " ms";
+            }
             EXPECT_LE(most - fewest, 8) << strips << " strips of " << work_ms << " ms";
             EXPECT_GT(fewest, 0);
+        }
+    }
+}
+
+// Whatever is passed over, every slot is written down once: by their numbers, since the times of a slot that lies some
+// slots ahead are rounded.
+TEST(Strips, AreAllWrittenDownOnce) {
+    for (const int strips : {1, 2, 3, 8}) {
+        std::mt19937 random{17};
+        std::exponential_distribution<double> work_ms{strips / 6.0};
+        const StripRig rig{strips, [&] { return from_ms(work_ms(random)); }, TimePoint{} + Duration{1234567}};
+        const auto& parts = rig.loop.records();
+        for (std::size_t i = 1; i < parts.size(); ++i) {
+            ASSERT_EQ(parts[i].refresh, parts[i - 1].refresh + 1) << strips << " strips";
         }
     }
 }

@@ -56,8 +56,8 @@ void ServerLoop::show_next() {
 }
 
 Refresh ServerLoop::next_slot_after(TimePoint now) const {
-    // A slot gets one picture: after an early one, the next is the one after it. It begins after the middle of the
-    // last; after its beginning begins itself where that was rounded down, some slots ahead.
+    // A slot gets one picture: after an early one, the next is the one that begins after its middle. After its
+    // beginning it could come a second time: the pacer rounds that of a slot some way ahead.
     Refresh next = next_slot(parts_.presenter, std::max(now, last_refresh_.photon()), settings_.strips);
     if (!pacer_.is_too_slow_for(next.period)) return next;
     // Slots have to be passed over. Strips take turns, lest one be made again and again and another one never.

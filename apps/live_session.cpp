@@ -38,6 +38,10 @@ constexpr std::size_t kSpareRecords = 1024;
 // Strips of a picture unless --strips says, where the scan-out is known. Two cost the server nothing and give most of
 // what many do; with more of them a client's frame that becomes ready meanwhile is seen in parts more often.
 constexpr int kStripsOfAScanout = 2;
+constexpr int kLeastRowsOfStrips = 64;
+// A strip that takes more of its time than this when nothing disturbs it will often take longer than that, and strips
+// that take turns show less than whole pictures that are late. Some methods take as long for a strip as for all.
+constexpr double kMostOfAStripsTime = 0.7;
 
 /// The client's rate where its frames must meet the refreshes at every phase: a period that is a whole number of
 /// refreshes, give or take a fifth, gets 0.31 of one more. 0, as fast as it can, drifts by itself.
@@ -97,10 +101,11 @@ private:
     [[nodiscard]] bool has_photon_codes() const {
         return window_ == nullptr && options_.subcommand == Subcommand::measure;
     }
-    /// To begin with. A window's compositor takes whole pictures, and nobody knows how it scans them out; a GL method
-    /// draws the whole source for every strip; the eyes' pictures are made whole.
+    /// To begin with, if they are made in time. A window's compositor takes whole pictures, and nobody knows how it
+    /// scans them out; a GL method draws the whole source for every strip; the eyes' pictures are made whole.
     [[nodiscard]] int first_strips() const {
-        const bool whole = window_ != nullptr || entry_.needs_gl || options_.stereo.on;
+        const bool whole =
+            window_ != nullptr || entry_.needs_gl || options_.stereo.on || options_.size_px.y < kLeastRowsOfStrips;
         return options_.strips.value_or(whole ? 1 : kStripsOfAScanout);
     }
     [[nodiscard]] std::size_t reserved_parts() const {
@@ -108,7 +113,9 @@ private:
                static_cast<std::size_t>(controls_.strips);
     }
     void show_until_stopped();
-    void show_in_strips(ServerSettings& settings, Presenter& presenter);
+    void make_loop(ServerSettings& settings, Presenter& presenter);
+    [[nodiscard]] bool is_in_time(int strips);
+    void show(int strips);
     void take_results(const ServerLoop& loop, int strips);
 
     [[nodiscard]] const HeadPoseFeed& head() const {
@@ -312,7 +319,7 @@ void LiveSession::show_next_layout() {
 void LiveSession::show_in_next_strips() {
     if (stereo_ != nullptr) return;
     const int more = 2 * controls_.strips;
-    controls_.strips = more > DemoControls::kMostStrips ? 1 : more;
+    controls_.strips = more > std::min(DemoControls::kMostStrips, options_.size_px.y) ? 1 : more;
     show_on_ = true;
     stop_server();
 }
@@ -469,7 +476,6 @@ Status LiveSession::prepare_server(std::unique_ptr<gl::Context>& context) {
         window_->attach(clock_.now());
     } else {
         virtual_display_.emplace(clock_.now(), options_.display_hz, picture_px());
-        if (has_photon_codes()) watch_photons();
     }
     if (entry_.needs_gl) raise_priority();
     wake_exactly();
@@ -545,9 +551,17 @@ void LiveSession::show_until_stopped() {
     }
     settings.thread_cpu_time = entry_.needs_gl ? nullptr : thread_cpu_time;
     Presenter& presenter = window_ != nullptr ? static_cast<Presenter&>(*window_) : *virtual_display_;
-    do {
-        show_in_strips(settings, presenter);
-    } while (show_on_.exchange(false) && !stop_);
+    make_loop(settings, presenter);
+    if (!options_.strips && settings.strips > 1 && !is_in_time(settings.strips)) {
+        controls_.strips = 1;
+        make_loop(settings, presenter);
+    }
+    if (has_photon_codes()) watch_photons();
+    show(settings.strips);
+    while (show_on_.exchange(false) && !stop_) {
+        make_loop(settings, presenter);
+        show(settings.strips);
+    }
     if (virtual_display_) {
         const auto seen = virtual_display_->seen();
         result_.seen.assign(seen.begin(), seen.end());
@@ -558,17 +572,22 @@ void LiveSession::show_until_stopped() {
     for (const Eye eye : kEyes) result_.last_eyes.push_back(stereo_->eye(eye).display_frame().colour);
 }
 
-void LiveSession::show_in_strips(ServerSettings& settings, Presenter& presenter) {
+void LiveSession::make_loop(ServerSettings& settings, Presenter& presenter) {
     settings.strips = controls_.strips;
     settings.reserved_refreshes = reserved_parts();
-    {
-        const std::lock_guard lock{server_mutex_};
-        server_loop_.emplace(ServerParts{clock_, *exchange_, head(), movers_, *server_predictor_, *warper_, presenter},
-                             settings);
-        if (stop_) server_loop_->request_stop();
-    }
+    const std::lock_guard lock{server_mutex_};
+    server_loop_.emplace(ServerParts{clock_, *exchange_, head(), movers_, *server_predictor_, *warper_, presenter},
+                         settings);
+    if (stop_) server_loop_->request_stop();
+}
+
+bool LiveSession::is_in_time(int strips) {
+    return to_seconds(server_loop_->rehearse()) <= kMostOfAStripsTime / (options_.display_hz * strips);
+}
+
+void LiveSession::show(int strips) {
     server_loop_->run();
-    take_results(*server_loop_, settings.strips);
+    take_results(*server_loop_, strips);
 }
 
 void LiveSession::take_results(const ServerLoop& loop, int strips) {

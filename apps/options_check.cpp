@@ -53,6 +53,10 @@ Status check_together(const Options& options) {
     if (options.shells.on && options.billboards.mode != BillboardMode::off) {
         return Error{"shells draw far objects as they are", "--shells --billboards", "leave out one of them"};
     }
+    if (options.strips.value_or(1) > options.size_px.y) {
+        return Error{"more strips than rows", fmt::format("--strips {}", *options.strips),
+                     fmt::format("choose at most {} for this --size", options.size_px.y)};
+    }
     const Status stereo = check_stereo(options);
     if (!stereo) return stereo;
     if (!options.bench_merge.empty() && options.bench_part == "all") {

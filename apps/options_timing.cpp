@@ -37,13 +37,12 @@ void declare_timing(Declarer& declare) {
 
 void declare_strips_and_load(Declarer& declare) {
     Options& options = declare.options();
-    declare.value(
-        "--strips", "auto|N",
-        "warp each picture in N strips, each just before it is scanned out; auto: 2 where the scan-out is known",
-        [&options](const std::string& text) {
-            options.strips.reset();
-            if (text != "auto") options.strips = static_cast<int>(number_in("--strips", text, {1, 64, true}));
-        });
+    declare.value("--strips", "auto|N",
+                  "warp each picture in N strips, each just before it is scanned out; auto: 2 where that helps",
+                  [&options](const std::string& text) {
+                      options.strips.reset();
+                      if (text != "auto") options.strips = static_cast<int>(number_in("--strips", text, {1, 64, true}));
+                  });
     declare.value("--load", "triangles=N,stall=MS", "make the client slower: more to draw, a wait in every frame",
                   [&options](const std::string& text) {
                       parse_named_numbers("--load", text, {"triangles", "stall"}, {0, 1e9}, true,

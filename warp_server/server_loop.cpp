@@ -26,8 +26,15 @@ ServerLoop::ServerLoop(const ServerParts& parts, const ServerSettings& settings)
 }
 
 void ServerLoop::run() {
-    while (!stop_.load(std::memory_order_relaxed) && !parts_.presenter.closed()) show_next();
+    while (!has_to_stop()) show_next();
 }
+
+Duration ServerLoop::rehearse() {
+    while (!has_shown_ && !has_to_stop()) show_next();
+    return slowest_strip_;
+}
+
+bool ServerLoop::has_to_stop() const { return stop_.load(std::memory_order_relaxed) || parts_.presenter.closed(); }
 
 void ServerLoop::show_next() {
     const TimePoint now = parts_.clock.now();
@@ -70,9 +77,16 @@ Refresh ServerLoop::next_slot_after(TimePoint now) const {
 }
 
 void ServerLoop::warm_up(const RenderedFrame& frame, const Refresh& refresh) {
-    for (int i = 0; i < kWarmUpWarps; ++i) {
-        const PredictedPose head = head_at(parts_.clock.now(), refresh.photon());
-        parts_.warper.warp(frame, target_at(head.world_from_head, refresh));
+    Refresh slot = refresh;
+    for (int strip = 0; strip < settings_.strips; ++strip, ++slot.number) {
+        Duration least = Duration::max();
+        for (int i = 0; i < kWarmUpWarps; ++i) {
+            const TimePoint begin = parts_.clock.now();
+            const PredictedPose head = head_at(begin, refresh.photon());
+            parts_.warper.warp(frame, target_at(head.world_from_head, slot));
+            least = std::min(least, parts_.clock.now() - begin);
+        }
+        slowest_strip_ = std::max(slowest_strip_, least);
     }
 }
 

@@ -53,14 +53,18 @@ struct ServerSettings {
 };
 
 /// Runs on the thread that calls run(). Until the first rendered frame arrives there is nothing to show: the display
-/// keeps what it had and no refresh is counted. That frame is then warped kWarmUpWarps times without being shown, so
-/// that no counted refresh pays for touching memory for the first time. After that no refresh allocates.
+/// keeps what it had and no refresh is counted. Each strip of that frame is then warped kWarmUpWarps times without
+/// being shown, so that no counted refresh pays for touching memory for the first time. After that no refresh
+/// allocates.
 class ServerLoop {
 public:
     ServerLoop(const ServerParts& parts, const ServerSettings& settings);
 
     /// Shows pictures until request_stop(), or until the presenter is closed.
     void run();
+    /// What run() begins with: waits for the first rendered frame and warms up. It may be called before, to learn what
+    /// the slowest strip takes at its best; zero when the loop was stopped before there was a frame.
+    Duration rehearse();
     /// Waits for one refresh and makes its picture: what run() repeats.
     void show_next();
 
@@ -85,6 +89,7 @@ private:
         Duration cpu_at_wake{};
     };
 
+    [[nodiscard]] bool has_to_stop() const;
     void warm_up(const RenderedFrame& frame, const Refresh& refresh);
     void make_picture(const RenderedFrame& frame, const PacerPlan& plan, const Timing& timing);
     /// Head pose predicted to photon time; the last good one if it is unusable.
@@ -110,6 +115,7 @@ private:
 
     Refresh last_refresh_;    ///< the newest one that was written down or waited for
     bool has_shown_ = false;  ///< refreshes count from the first picture on
+    Duration slowest_strip_{};
     std::vector<DisplayRecord> records_;
     std::vector<ObjectTransform> movers_;
     PredictedPose last_good_head_;

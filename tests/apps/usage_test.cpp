@@ -57,6 +57,7 @@ INSTANTIATE_TEST_SUITE_P(
         Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--baseline", "scanline", "--eye-turn", "2,0,0"},
         Arguments{"replay", "--trace", "walk", "--baseline", "two-renders"},
         Arguments{"replay", "--trace", "walk", "--eyes", "stereo", "--stereo", "two-renders", "--shells", "auto"},
+        Arguments{"measure", "city", "--size", "64x32", "--strips", "40"},
         Arguments{"measure", "--eyes", "stereo", "--stereo", "scanline", "--shells", "2"},
         Arguments{"render", "city", "--pose", "0,0,0,0,0,0,1"}, Arguments{"render", "city", "-o", ""},
         Arguments{"render", "-o", "x.png"}, Arguments{"render", "city", "-o", "x.png", "--pose", "0,0,0,0,0,0,0"},

@@ -76,12 +76,12 @@ TEST(Strips, PutTogetherAreTheWholePicture) {
 
 struct StripRig {
     StripRig(int strips, double work_ms) : StripRig{strips, [work_ms] { return from_ms(work_ms); }, TimePoint{}} {}
-    StripRig(int strips, std::function<Duration()> work, TimePoint start)
+    StripRig(int strips, std::function<Duration()> work, TimePoint start, int pictures = 400)
         : warper{std::make_unique<test::TimedMethod>(clock, std::move(work)), std::make_unique<test::NoFill>()},
           display{start, 90.0, {16, 64}},
           loop{ServerParts{clock, exchange, head, movers, predictor, warper, display}, settings(strips)} {
         exchange.publish(test::plain_frame(1, TimePoint{}, Rgba8{10, 20, 30, 255}));
-        for (int i = 0; i < 400; ++i) loop.show_next();
+        for (int i = 0; i < pictures; ++i) loop.show_next();
     }
     static ServerSettings settings(int strips) {
         ServerSettings result;
@@ -112,6 +112,22 @@ TEST(Strips, EachHasItsOwnPoseJustAheadOfItsScanout) {
     EXPECT_NEAR(to_ms(last.photon - last.scanout_begin), 0.5e3 / 90.0 / 8.0, 1e-5);
     EXPECT_EQ(rig.display.picture().at(3, 60), (Rgba8{10, 20, 30, 255}));
     EXPECT_EQ(count_misses(worst_strips(parts, 8)).missed, 0u);
+}
+
+TEST(Strips, ARehearsalTellsWhatTheSlowestTakesAtItsBest) {
+    // The third warp of four of each of two strips is disturbed, and the lower one is harder.
+    int warps = 0;
+    StripRig rig{2,
+                 [&] {
+                     const int warp = warps++;
+                     return from_ms(warp % ServerLoop::kWarmUpWarps == 2 ? 9.0 : warp < 4 ? 1.0 : 1.5);
+                 },
+                 TimePoint{}, 0};
+    EXPECT_EQ(rig.loop.rehearse(), from_ms(1.5));
+    EXPECT_EQ(warps, 2 * ServerLoop::kWarmUpWarps);
+    EXPECT_TRUE(rig.loop.records().empty());
+    rig.loop.show_next();
+    EXPECT_EQ(warps, 2 * ServerLoop::kWarmUpWarps + 1) << "once is enough";
 }
 
 TEST(Strips, WorkThatNeedsMostOfAStripsTimeIsStillInTime) {

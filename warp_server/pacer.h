@@ -32,7 +32,7 @@ struct PacerSettings {
         Duration most;
     };
     Margin whole_margin{0.125, from_ms(0.3), from_ms(1.5)};
-    Margin strip_margin{0.8, from_ms(0.3), from_ms(4.5)};
+    Margin strip_margin{1.0, from_ms(0.3), from_ms(4.5)};
     /// What a missed refresh adds to the margin, where more lead would have helped: work longer than the longest lead
     /// is nothing to be ready for.
     Duration miss_step = from_ms(0.25);

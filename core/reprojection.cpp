@@ -46,9 +46,6 @@ WideMatrix inverse_axes(const glm::dmat4& world_from_object) {
 // Both worlds are shifted to the source eye: positions near the eye stay small numbers however far the eye is from the
 // world's origin.
 glm::dmat4 motion_about(const glm::dvec3& origin_world, const glm::dmat4& at_source, const glm::dmat4& at_target) {
-    if (glm::dmat3{at_source} == glm::dmat3{at_target}) {  // it did not turn: nothing to invert, nothing to lose
-        return glm::translate(glm::dmat4{1.0}, glm::dvec3{at_target[3]} - glm::dvec3{at_source[3]});
-    }
     const WideVector origin{origin_world};
     const WideMatrix linear = WideMatrix{glm::dmat3{at_target}} * inverse_axes(at_source);
     const WideVector shift =
@@ -65,22 +62,37 @@ public:
         : source_eye_world_{source.world_from_eye.position_m},
           target_px_from_shifted_world_{target_px_from_target_clip(target) * target_clip_from_target_eye(target) *
                                         target_eye_from_shifted_world(source, target)},
-          shifted_world_from_source_px_{shifted_world_from_source_eye(source) * source_eye_from_source_px(source)} {}
+          shifted_world_from_source_px_{shifted_world_from_source_eye(source) * source_eye_from_source_px(source)},
+          static_{target_px_from_shifted_world_ * shifted_world_from_source_px_} {}
 
-    [[nodiscard]] Transform<TargetPx, SourcePx> of_static() const {
-        return target_px_from_shifted_world_ * shifted_world_from_source_px_;
-    }
+    [[nodiscard]] Transform<TargetPx, SourcePx> of_static() const { return static_; }
     [[nodiscard]] std::optional<Transform<TargetPx, SourcePx>> of_mover(const glm::dmat4& at_source,
                                                                         const glm::dmat4& at_target) const {
         if (!is_invertible_placement(at_source) || !is_placement(at_target)) return std::nullopt;
         if (at_source == at_target) return of_static();
-        const Transform<World, World> motion{motion_about(source_eye_world_, at_source, at_target)};
-        const auto target_px_from_source_px = target_px_from_shifted_world_ * motion * shifted_world_from_source_px_;
+        const bool turned = glm::dmat3{at_source} != glm::dmat3{at_target};
+        const auto target_px_from_source_px =
+            turned ? of_turned(at_source, at_target) : of_slid(glm::dvec3{at_target[3]} - glm::dvec3{at_source[3]});
         if (!fits_a_float(target_px_from_source_px.matrix)) return std::nullopt;
         return target_px_from_source_px;
     }
 
 private:
+    [[nodiscard]] Transform<TargetPx, SourcePx> of_turned(const glm::dmat4& at_source,
+                                                          const glm::dmat4& at_target) const {
+        const Transform<World, World> motion{motion_about(source_eye_world_, at_source, at_target)};
+        return target_px_from_shifted_world_ * motion * shifted_world_from_source_px_;
+    }
+    // Most movers slide: nothing to invert, and one outer product instead of two matrix products.
+    [[nodiscard]] Transform<TargetPx, SourcePx> of_slid(const glm::dvec3& shift_world) const {
+        const glm::dvec4 shift_px = target_px_from_shifted_world_.matrix * glm::dvec4{shift_world, 0.0};
+        Transform<TargetPx, SourcePx> slid = static_;
+        for (int column = 0; column < 4; ++column) {
+            slid.matrix[column] += shifted_world_from_source_px_.matrix[column].w * shift_px;
+        }
+        return slid;
+    }
+
     static Transform<TargetEye, World> target_eye_from_shifted_world(const Camera& source, const Camera& target) {
         Pose shifted = target.world_from_eye;
         shifted.position_m -= source.world_from_eye.position_m;
@@ -93,6 +105,7 @@ private:
     glm::dvec3 source_eye_world_;
     Transform<TargetPx, World> target_px_from_shifted_world_;
     Transform<World, SourcePx> shifted_world_from_source_px_;
+    Transform<TargetPx, SourcePx> static_;
 };
 
 }  // namespace

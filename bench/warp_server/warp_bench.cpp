@@ -210,7 +210,7 @@ void register_all() {
             });
         }
     }
-    for (const std::string name : {"surface", "surface:threads=2"}) {
+    for (const std::string name : {"splat", "surface", "surface:threads=2"}) {
         add("prepare/" + name, [name](benchmark::State& state) { prepare(state, name); });
     }
     const auto newer_than_avx2 = hwy::SupportedTargets() & (HWY_AVX2 - 1);

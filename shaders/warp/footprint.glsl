@@ -4,6 +4,7 @@
 
 const float kLargestHalfExtentPx = 2.0;
 const float kSameSurfaceDepthPart = 0.03;
+const float kClearlySmallerDepthPart = 1.0 / 1024.0;
 const float kOtherSurface = 8.0;  // farther from any depth than that part
 
 float neighbour_depth(ivec2 at, uint object_id) {
@@ -13,12 +14,14 @@ float neighbour_depth(ivec2 at, uint object_id) {
     return is_usable_depth(depth) ? depth : kOtherSurface;
 }
 
-// The smaller of the two differences stays on the surface beside an edge.
+// The difference to the pixel after, or to the one before where that is clearly smaller: beside an edge it is the one
+// that stays on the surface.
 float one_sided_difference(float depth, float before, float after) {
     float to_before = depth - before;
     float to_after = after - depth;
-    float smaller = abs(to_before) < abs(to_after) ? to_before : to_after;
-    return abs(smaller) < kSameSurfaceDepthPart * depth ? smaller : 0.0;
+    bool before_is_smaller = abs(to_before) + kClearlySmallerDepthPart * depth < abs(to_after);
+    float chosen = before_is_smaller ? to_before : to_after;
+    return abs(chosen) < kSameSurfaceDepthPart * depth ? chosen : 0.0;
 }
 
 // `h` is where the pixel goes, (x, y, w) homogeneous.

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <random>
 
 #include "tests/warp_server/analytic_scene.h"
 #include "warp_server/methods/splat_footprint.h"
@@ -20,28 +22,39 @@ CpuPixels flat_pixels() {
     return {ColourImage{size_px}, DepthImage{size_px, 0.1F}, ObjectIdImage{size_px, ObjectId{0}}};
 }
 
-BlockKind kind_at(const SplatTiles& tiles, int x, int y) {
-    return tiles.kinds[static_cast<std::size_t>(y * tiles.blocks_per_row + x / kBlockWidth_px)];
+// The runs of the block that begins at (x, y).
+std::vector<SplatRun> runs_at(const SplatTiles& tiles, int x, int y) {
+    std::vector<SplatRun> found;
+    std::ranges::copy_if(tiles.runs, std::back_inserter(found),
+                         [&](const SplatRun& run) { return run.x_px == x && run.y_px == y; });
+    return found;
 }
 
-TEST(SplatTiles, BlocksAwayFromBordersOfImageAndObjectsAreUniform) {
+bool is_smooth_at(const SplatTiles& tiles, int x, int y) {
+    const std::vector<SplatRun> runs = runs_at(tiles, x, y);
+    return runs.size() == 1 && runs[0].is_smooth();
+}
+
+TEST(SplatTiles, SlopesAreTakenToTheNextPixelAndAtTheEndOfTheImageToTheOneBefore) {
     const auto tiles = tiles_of(flat_pixels());
     EXPECT_EQ(tiles->bands(), 2);
-    EXPECT_EQ(kind_at(*tiles, 16, 1), BlockKind::uniform);
-    EXPECT_EQ(kind_at(*tiles, 32, 30), BlockKind::uniform);
-    EXPECT_EQ(kind_at(*tiles, 0, 1), BlockKind::mixed);    // the image ends beside it
-    EXPECT_EQ(kind_at(*tiles, 16, 0), BlockKind::mixed);   // and above
-    EXPECT_EQ(kind_at(*tiles, 16, 31), BlockKind::mixed);  // and below
+    EXPECT_EQ(tiles->runs.size(), 4U * 32U);
+    for (const int x : {0, 16, 32}) {
+        for (const int y : {0, 1, 15, 16, 30}) EXPECT_TRUE(is_smooth_at(*tiles, x, y)) << x << ", " << y;
+    }
+    EXPECT_EQ(runs_at(*tiles, 48, 5), (std::vector<SplatRun>{{48, 5, 0, 0xFFFF, 0x7FFF, 0x8000, 0xFFFF, 0}}));
+    EXPECT_EQ(runs_at(*tiles, 16, 31), (std::vector<SplatRun>{{16, 31, 0, 0xFFFF, 0xFFFF, 0, 0, 0xFFFF}}));
 }
 
-TEST(SplatTiles, AnotherObjectMakesEveryBlockItTouchesMixed) {
+TEST(SplatTiles, EveryObjectOfABlockHasARunAndNoSlopeLeavesIt) {
     CpuPixels pixels = flat_pixels();
     pixels.object_id.at(31, 10) = 7;  // last pixel of its block
     const auto tiles = tiles_of(pixels);
-    for (const int y : {9, 10, 11}) EXPECT_EQ(kind_at(*tiles, 16, y), BlockKind::mixed) << y;
-    EXPECT_EQ(kind_at(*tiles, 32, 10), BlockKind::mixed);  // its left neighbour is the pixel
-    EXPECT_EQ(kind_at(*tiles, 32, 11), BlockKind::uniform);
-    EXPECT_EQ(kind_at(*tiles, 16, 8), BlockKind::uniform);
+    EXPECT_EQ(runs_at(*tiles, 16, 10),
+              (std::vector<SplatRun>{{16, 10, 0, 0x7FFF, 0x3FFF, 0x4000, 0x7FFF, 0}, {16, 10, 7, 0x8000, 0, 0, 0, 0}}));
+    EXPECT_EQ(runs_at(*tiles, 16, 9), (std::vector<SplatRun>{{16, 9, 0, 0xFFFF, 0xFFFF, 0, 0x7FFF, 0x8000}}));
+    EXPECT_TRUE(is_smooth_at(*tiles, 32, 10));  // nothing but its left neighbour is another object
+    EXPECT_TRUE(is_smooth_at(*tiles, 16, 11));
     ASSERT_EQ(tiles->first_patch[1] - tiles->first_patch[0], 2);  // object 0 and object 7
     EXPECT_EQ(tiles->pixels_of_object[7].all, 1U);
 }
@@ -52,7 +65,7 @@ TEST(SplatTiles, BadDepthsAreCountedAndLeftOutOfPatches) {
     pixels.depth.at(21, 4) = 7.0F;
     pixels.depth.at(22, 4) = -0.5F;
     const auto tiles = tiles_of(pixels);
-    EXPECT_EQ(kind_at(*tiles, 16, 4), BlockKind::mixed);
+    EXPECT_EQ(runs_at(*tiles, 16, 4), (std::vector<SplatRun>{{16, 4, 0, 0xFF8F, 0xFF87, 0x0008, 0xFF8F, 0}}));
     EXPECT_EQ(tiles->pixels_of_object[0].unusable, 3U);
     ASSERT_EQ(tiles->patches.size(), 2U);
     EXPECT_EQ(tiles->patches[0].least_depth, 0.1F);
@@ -64,13 +77,55 @@ TEST(SplatTiles, SkyIsEmptyAndAMoverAtInfinityIsNot) {
     for (float& depth : pixels.depth.pixels()) depth = 0.0F;
     for (int x = 32; x < 48; ++x) pixels.object_id.at(x, 20) = 3;
     const auto tiles = tiles_of(pixels);
-    EXPECT_EQ(kind_at(*tiles, 16, 20), BlockKind::empty);
+    EXPECT_TRUE(runs_at(*tiles, 16, 20).empty());
     EXPECT_EQ(tiles->background_in(0, 32, 20), BackgroundShare::all);
     EXPECT_EQ(tiles->background_in(0, 33, 20), BackgroundShare::some);
     EXPECT_EQ(tiles->background_in(32, 48, 20), BackgroundShare::none);
-    EXPECT_EQ(kind_at(*tiles, 32, 20), BlockKind::mixed);
+    EXPECT_EQ(runs_at(*tiles, 32, 20), (std::vector<SplatRun>{{32, 20, 3, 0xFFFF, 0, 0, 0, 0}}));  // of slope 0
     EXPECT_EQ(tiles->points[0], 0);
     EXPECT_EQ(tiles->points[1], 16);
+}
+
+// One pixel at a time, by the definition of splat_footprint.h, on depths and objects without any order; the image is no
+// whole number of blocks wide.
+TEST(SplatTiles, RunsHoldEveryPointOnceWithItsSlopes) {
+    const glm::ivec2 size_px{77, 37};
+    CpuPixels pixels{ColourImage{size_px}, DepthImage{size_px}, ObjectIdImage{size_px}};
+    std::mt19937 random{7};
+    for (int y = 0; y < size_px.y; ++y) {
+        for (int x = 0; x < size_px.x; ++x) {
+            const float depth = 0.3F + 0.002F * static_cast<float>(random() % 8);
+            pixels.depth.at(x, y) = random() % 16 != 0 ? depth : (random() % 2 != 0 ? 0.0F : 3.0F);
+            pixels.object_id.at(x, y) = static_cast<ObjectId>(random() % 16 != 0 ? x / 20 : random() % 3);
+        }
+    }
+    Image<int> held{size_px};
+    const auto tiles = tiles_of(pixels);
+    for (const SplatRun& run : tiles->runs) {
+        for (int i = 0; i < kBlockWidth_px; ++i) {
+            const auto has = [&](std::uint16_t mask) { return ((mask >> i) & 1) != 0; };
+            if (!has(run.points)) continue;
+            const glm::ivec2 at{run.x_px + i, run.y_px};
+            ++held.at(at.x, at.y);
+            EXPECT_EQ(run.object, pixels.object_id.at(at.x, at.y));
+            const float depth = pixels.depth.at(at.x, at.y);
+            const auto slope = [&](std::uint16_t after, std::uint16_t before, glm::ivec2 step) {
+                if (has(after)) return pixels.depth.at(at.x + step.x, at.y + step.y) - depth;
+                if (has(before)) return depth - pixels.depth.at(at.x - step.x, at.y - step.y);
+                return 0.0F;
+            };
+            const DepthGradient expected = depth_gradient(pixels.depth, pixels.object_id, at.x, at.y);
+            EXPECT_EQ(slope(run.after_x, run.before_x, {1, 0}), expected.x) << at.x << ", " << at.y;
+            EXPECT_EQ(slope(run.after_y, run.before_y, {0, 1}), expected.y) << at.x << ", " << at.y;
+        }
+    }
+    for (int y = 0; y < size_px.y; ++y) {
+        for (int x = 0; x < size_px.x; ++x) {
+            const float depth = pixels.depth.at(x, y);
+            const bool background = depth == 0.0F && pixels.object_id.at(x, y) == 0;
+            EXPECT_EQ(held.at(x, y), depth <= 1.0F && !background ? 1 : 0) << x << ", " << y;
+        }
+    }
 }
 
 struct Built {

@@ -28,13 +28,18 @@ inline constexpr float kLargestHalfExtentPx = 2.0F;
 /// A pixel and its neighbour are on one surface when their depths differ by less than this part of the depth.
 inline constexpr float kSameSurfaceDepthPart = 0.03F;
 
-/// The smaller of two one-sided differences (it is the one that stays on the surface beside an edge), or 0 where even
-/// that one leaves the surface. `before` and `after` are the neighbours' depths.
+/// Of two one-sided differences the first counts as smaller when it is so by this part of the depth.
+inline constexpr float kClearlySmallerDepthPart = 1.0F / 1024.0F;
+
+/// The difference to the pixel after, or to the one before where that is clearly smaller (it is the one that stays on
+/// the surface beside an edge), or 0 where even that one leaves the surface. `before` and `after` are the neighbours'
+/// depths.
 [[nodiscard]] inline float one_sided_difference(float depth, float before, float after) {
     const float to_before = depth - before;
     const float to_after = after - depth;
-    const float smaller = std::abs(to_before) < std::abs(to_after) ? to_before : to_after;
-    return std::abs(smaller) < kSameSurfaceDepthPart * depth ? smaller : 0.0F;
+    const bool before_is_smaller = std::abs(to_before) + kClearlySmallerDepthPart * depth < std::abs(to_after);
+    const float chosen = before_is_smaller ? to_before : to_after;
+    return std::abs(chosen) < kSameSurfaceDepthPart * depth ? chosen : 0.0F;
 }
 
 /// Gradient at (x, y); neighbours of other objects count as edges. NaN neighbours count as edges too.

@@ -28,38 +28,23 @@ struct LaneMatrices {
     hn::Vec<D> depth_scale;
 };
 
-/// What `lane_of` makes of every value of `m` for row `y`; it is given the value and the one of `before`.
-template <class D, class LaneOf>
-HWY_INLINE LaneMatrices<D> matrices_of(const PixelMatrix& m, int y, const LaneMatrices<D>& before,
-                                       const LaneOf& lane_of) {
-    const auto column = [&](const PixelMatrix::Column& own, const typename LaneMatrices<D>::Column& old) {
-        return typename LaneMatrices<D>::Column{lane_of(own.x, old.x), lane_of(own.y, old.y), lane_of(own.w, old.w)};
+/// `m` in all lanes, for row `y`.
+template <class D>
+HWY_INLINE LaneMatrices<D> same_matrices(D d, const PixelMatrix& m, int y) {
+    const auto column = [&](const PixelMatrix::Column& own) {
+        return typename LaneMatrices<D>::Column{hn::Set(d, own.x), hn::Set(d, own.y), hn::Set(d, own.w)};
     };
     const float y_px = static_cast<float>(y) + 0.5F;
     const PixelMatrix::Column start{m.one.x + y_px * m.y.x, m.one.y + y_px * m.y.y, m.one.w + y_px * m.y.w};
-    return {column(start, before.start), column(m.x, before.x), column(m.y, before.y), column(m.z, before.z),
-            lane_of(m.depth_scale, before.depth_scale)};
-}
-
-/// `m` in all lanes.
-template <class D>
-HWY_INLINE LaneMatrices<D> same_matrices(D d, const PixelMatrix& m, int y) {
-    return matrices_of(m, y, LaneMatrices<D>{}, [&](float value, hn::Vec<D> /*old*/) { return hn::Set(d, value); });
-}
-
-/// `m` in the `lanes`, `before` in the others.
-template <class D>
-HWY_INLINE LaneMatrices<D> with_matrix(D d, const LaneMatrices<D>& before, hn::Mask<D> lanes, const PixelMatrix& m,
-                                       int y) {
-    return matrices_of(m, y, before,
-                       [&](float value, hn::Vec<D> old) { return hn::IfThenElse(lanes, hn::Set(d, value), old); });
+    return {column(start), column(m.x), column(m.y), column(m.z), hn::Set(d, m.depth_scale)};
 }
 
 /// Points on their way to the target.
 template <class D>
 struct PlacedPoints {
     hn::Vec<D> x_px, y_px, depth, inverse_w;
-    hn::Mask<D> in_front;  ///< between the eye plane and the near plane there is nothing to see
+    hn::Vec<D> w_x_px, w_y_px, w;  ///< the same before the division
+    hn::Mask<D> in_front;          ///< between the eye plane and the near plane there is nothing to see
 };
 
 /// Lanes(d) neighbouring pixels of the matrices' row from column `x` on.
@@ -72,19 +57,16 @@ HWY_INLINE PlacedPoints<D> place_points(D d, const LaneMatrices<D>& m, int x, hn
     const auto w = row_term(m.start.w, m.x.w, m.z.w);
     const auto inverse_w = hn::Div(hn::Set(d, 1.0F), w);
     const auto target_depth = hn::Mul(hn::Mul(depth, m.depth_scale), inverse_w);
-    return {hn::Mul(row_term(m.start.x, m.x.x, m.z.x), inverse_w),
-            hn::Mul(row_term(m.start.y, m.x.y, m.z.y), inverse_w), target_depth, inverse_w,
+    const auto w_x_px = row_term(m.start.x, m.x.x, m.z.x);
+    const auto w_y_px = row_term(m.start.y, m.x.y, m.z.y);
+    return {hn::Mul(w_x_px, inverse_w),
+            hn::Mul(w_y_px, inverse_w),
+            target_depth,
+            inverse_w,
+            w_x_px,
+            w_y_px,
+            w,
             hn::And(hn::Gt(w, hn::Zero(d)), hn::Le(target_depth, hn::Set(d, 1.0F)))};
-}
-
-/// one_sided_difference of splat_footprint.h.
-template <class D>
-HWY_INLINE hn::Vec<D> one_sided_differences(D d, hn::Vec<D> depth, hn::Vec<D> before, hn::Vec<D> after) {
-    const auto to_before = hn::Sub(depth, before);
-    const auto to_after = hn::Sub(after, depth);
-    const auto smaller = hn::IfThenElse(hn::Lt(hn::Abs(to_before), hn::Abs(to_after)), to_before, to_after);
-    const auto on_surface = hn::Lt(hn::Abs(smaller), hn::Mul(hn::Set(d, kSameSurfaceDepthPart), depth));
-    return hn::IfThenElseZero(on_surface, smaller);
 }
 
 /// footprint_of in splat_footprint.h.
@@ -96,21 +78,23 @@ struct Footprints {
 template <class D>
 HWY_INLINE Footprints<D> footprints(D d, const LaneMatrices<D>& m, const PlacedPoints<D>& points, hn::Vec<D> gradient_x,
                                     hn::Vec<D> gradient_y) {
-    // w times the derivatives of a place by the source's columns, rows and depth.
-    const auto derivative = [&](hn::Vec<D> column, hn::Vec<D> column_w, hn::Vec<D> place) {
-        return hn::Sub(column, hn::Mul(place, column_w));
+    // Of w * place and of w, along the source's columns and rows.
+    const auto along = [&](hn::Vec<D> column, hn::Vec<D> gradient, hn::Vec<D> column_z) {
+        return hn::Add(column, hn::Mul(gradient, column_z));
     };
-    const auto half_per_w = hn::Mul(hn::Set(d, 0.5F), points.inverse_w);
-    const auto half_extents = [&](hn::Vec<D> along_x, hn::Vec<D> along_y) {
-        const auto half = hn::Mul(half_per_w, hn::Add(hn::Abs(along_x), hn::Abs(along_y)));
-        return hn::Min(hn::Max(half, hn::Set(d, 0.5F)), hn::Set(d, kLargestHalfExtentPx));
+    const auto w_x = along(m.x.w, gradient_x, m.z.w);
+    const auto w_y = along(m.y.w, gradient_y, m.z.w);
+    // w squared times the derivatives of a place: they are ready before the division is.
+    const auto derivative = [&](hn::Vec<D> of_w_place, hn::Vec<D> w_place, hn::Vec<D> of_w) {
+        return hn::Abs(hn::Sub(hn::Mul(of_w_place, points.w), hn::Mul(w_place, of_w)));
     };
-    const auto z_x = derivative(m.z.x, m.z.w, points.x_px);
-    const auto z_y = derivative(m.z.y, m.z.w, points.y_px);
-    return {half_extents(hn::Add(derivative(m.x.x, m.x.w, points.x_px), hn::Mul(gradient_x, z_x)),
-                         hn::Add(derivative(m.y.x, m.y.w, points.x_px), hn::Mul(gradient_y, z_x))),
-            half_extents(hn::Add(derivative(m.x.y, m.x.w, points.y_px), hn::Mul(gradient_x, z_y)),
-                         hn::Add(derivative(m.y.y, m.y.w, points.y_px), hn::Mul(gradient_y, z_y)))};
+    const auto half_per_w2 = hn::Mul(hn::Mul(hn::Set(d, 0.5F), points.inverse_w), points.inverse_w);
+    const auto half_extents = [&](hn::Vec<D> along_x, hn::Vec<D> along_y, hn::Vec<D> w_place) {
+        const auto sum = hn::Add(derivative(along_x, w_place, w_x), derivative(along_y, w_place, w_y));
+        return hn::Min(hn::Max(hn::Mul(half_per_w2, sum), hn::Set(d, 0.5F)), hn::Set(d, kLargestHalfExtentPx));
+    };
+    return {half_extents(along(m.x.x, gradient_x, m.z.x), along(m.y.x, gradient_y, m.z.x), points.w_x_px),
+            half_extents(along(m.x.y, gradient_x, m.z.y), along(m.y.y, gradient_y, m.z.y), points.w_y_px)};
 }
 
 /// winner_key in two halves; the lower half, with the colour, is the same for all pixels that a point covers.

@@ -1,6 +1,7 @@
 #include "warp_server/methods/splat_reach.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "warp_server/methods/row_range.h"
@@ -13,6 +14,8 @@ namespace {
 // of large terms (see kLeastPartOfW).
 constexpr float kMargin_px = kLargestHalfExtentPx + 1.0F;
 constexpr float kLeastPartOfW = 1e-3F;
+// In the target; 1 is the near plane.
+constexpr float kGreatestDepth = 0.999F;
 
 struct Box {
     float begin_x, end_x, begin_y, end_y, least_depth, greatest_depth;
@@ -28,47 +31,72 @@ struct BoxReach {
     Kind kind = Kind::anywhere;  // what comes close to the eye plane may land anywhere
     Extent x;
     Extent y;
+    float greatest_depth = 0.0F;  // in the target
 };
 
-// Places are quotients of affine functions of x, y and depth. Where the divisor stays positive, such a quotient is
-// monotone along every edge of the box, so it is bounded by its values at the corners.
+constexpr int kCorners = 8;
+using Corners = std::array<float, kCorners>;
+
+Extent extent_of(const Corners& values) {
+    float least = values[0];
+    float greatest = values[0];
+    for (const float value : values) {
+        least = value < least ? value : least;
+        greatest = value > greatest ? value : greatest;
+    }
+    return {least, greatest};
+}
+
+// Places and depths are quotients of affine functions of x, y and depth. Where the divisor stays positive, such a
+// quotient is monotone along every edge of the box, so it is bounded by its values at the corners.
 BoxReach reach_of(const Box& box, const PixelMatrix& m) {
-    float x[8];
-    float y[8];
-    float w[8];
-    float size_of_w[8];
-    for (int i = 0; i < 8; ++i) {
-        const float at_x = (i & 1) != 0 ? box.end_x : box.begin_x;
-        const float at_y = (i & 2) != 0 ? box.end_y : box.begin_y;
-        const float depth = (i & 4) != 0 ? box.greatest_depth : box.least_depth;
-        x[i] = m.one.x + at_y * m.y.x + at_x * m.x.x + depth * m.z.x;
-        y[i] = m.one.y + at_y * m.y.y + at_x * m.x.y + depth * m.z.y;
-        w[i] = m.one.w + at_y * m.y.w + at_x * m.x.w + depth * m.z.w;
-        size_of_w[i] = std::abs(m.one.w) + std::abs(at_y * m.y.w) + std::abs(at_x * m.x.w) + std::abs(depth * m.z.w);
+    // Plain loops of fixed length: the compiler makes vectors of them.
+    Corners at_x;
+    Corners at_y;
+    Corners depth;
+    for (int i = 0; i < kCorners; ++i) {
+        at_x[i] = (i & 1) != 0 ? box.end_x : box.begin_x;
+        at_y[i] = (i & 2) != 0 ? box.end_y : box.begin_y;
+        depth[i] = (i & 4) != 0 ? box.greatest_depth : box.least_depth;
     }
-    if (std::all_of(w, w + 8, [](float value) { return value <= 0.0F; })) return {BoxReach::Kind::behind, {}, {}};
-    BoxReach reach{BoxReach::Kind::bounded, {1e9F, -1e9F}, {1e9F, -1e9F}};
-    for (int i = 0; i < 8; ++i) {
-        if (!(w[i] > kLeastPartOfW * size_of_w[i])) return {};
-        reach.x = {std::min(reach.x.least, x[i] / w[i]), std::max(reach.x.greatest, x[i] / w[i])};
-        reach.y = {std::min(reach.y.least, y[i] / w[i]), std::max(reach.y.greatest, y[i] / w[i])};
+    Corners w;
+    for (int i = 0; i < kCorners; ++i) w[i] = m.one.w + at_y[i] * m.y.w + at_x[i] * m.x.w + depth[i] * m.z.w;
+    const Extent all_w = extent_of(w);
+    if (all_w.greatest <= 0.0F) return {BoxReach::Kind::behind, {}, {}, 0.0F};
+    // At the corner where its terms are largest.
+    const float size_of_w = std::abs(m.one.w) + std::abs(box.end_y * m.y.w) + std::abs(box.end_x * m.x.w) +
+                            std::abs(box.greatest_depth * m.z.w);
+    if (!(all_w.least > kLeastPartOfW * size_of_w)) return {};
+    Corners x;
+    Corners y;
+    for (int i = 0; i < kCorners; ++i) {
+        x[i] = (m.one.x + at_y[i] * m.y.x + at_x[i] * m.x.x + depth[i] * m.z.x) / w[i];
+        y[i] = (m.one.y + at_y[i] * m.y.y + at_x[i] * m.x.y + depth[i] * m.z.y) / w[i];
+        depth[i] = depth[i] * m.depth_scale / w[i];
     }
-    return reach;
+    return {BoxReach::Kind::bounded, extent_of(x), extent_of(y), extent_of(depth).greatest};
 }
 
 // Pixels whose centres may lie in the extent, cut to [0, size).
 RowRange pixels_of(const Extent& extent, int size) {
     const auto limit = static_cast<float>(size);
-    const float begin = std::clamp(std::floor(extent.least - kMargin_px), 0.0F, limit);
-    const float end = std::clamp(std::ceil(extent.greatest + kMargin_px), 0.0F, limit);
-    return {static_cast<int>(begin), static_cast<int>(end)};
+    // Without the calls and branches of floor, ceil and clamp: there are thousands of patches.
+    const auto within = [limit](float value) {
+        const float not_below = value > 0.0F ? value : 0.0F;
+        return not_below < limit ? not_below : limit;
+    };
+    const float end = within(extent.greatest + kMargin_px);
+    const auto whole_end = static_cast<int>(end);
+    return {static_cast<int>(within(extent.least - kMargin_px)),
+            whole_end + static_cast<int>(static_cast<float>(whole_end) < end)};
 }
 
 bool lands_inside(const BoxReach& reach, glm::ivec2 size_px) {
     const auto inside = [](const Extent& extent, int size) {
         return extent.least >= kMargin_px && extent.greatest <= static_cast<float>(size) - kMargin_px;
     };
-    return reach.kind == BoxReach::Kind::bounded && inside(reach.x, size_px.x) && inside(reach.y, size_px.y);
+    return reach.kind == BoxReach::Kind::bounded && reach.greatest_depth < kGreatestDepth &&
+           inside(reach.x, size_px.x) && inside(reach.y, size_px.y);
 }
 
 PixelRect joined(const PixelRect& a, const PixelRect& b) {

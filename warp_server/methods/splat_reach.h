@@ -13,7 +13,7 @@ namespace lw {
 enum class TileLanding : std::uint8_t {
     outside,   ///< no pixel of it can be seen there
     crossing,  ///< some may land outside
-    inside,    ///< all of those in front of the eye land inside, with all pixels that they cover
+    inside,    ///< all are in front of the near plane and land inside, with all pixels that they cover
 };
 
 /// Rebuilt for every display frame; reuses its memory.

@@ -15,6 +15,26 @@ HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 namespace {
 
+// Where the pixels of one target row lie in the source by the rotation alone, before the division by w.
+template <class D>
+class RowPlaces {
+public:
+    HWY_INLINE RowPlaces(D /*d*/, const glm::mat3& h, int y)
+        : start_{h[2] + (static_cast<float>(y) + 0.5F) * h[1]}, along_x_{h[0]} {}
+
+    [[nodiscard]] HWY_INLINE hn::Vec<D> x_px_of(D d, int x) const {
+        return hn::Add(lanes_from(d, static_cast<float>(x)), hn::Set(d, 0.5F));
+    }
+    /// 0: x * w, 1: y * w, 2: w.
+    [[nodiscard]] HWY_INLINE hn::Vec<D> term(D d, hn::Vec<D> x_px, int component) const {
+        return hn::Add(hn::Set(d, start_[component]), hn::Mul(x_px, hn::Set(d, along_x_[component])));
+    }
+
+private:
+    glm::vec3 start_;
+    glm::vec3 along_x_;
+};
+
 // Where Lanes(d) target pixels lie in the source by the rotation alone.
 template <class D>
 struct SourcePlaces {
@@ -24,16 +44,12 @@ struct SourcePlaces {
 
 template <class D>
 HWY_INLINE SourcePlaces<D> source_places(D d, const glm::mat3& h, glm::ivec2 size_px, int x, int y) {
-    const float y_px = static_cast<float>(y) + 0.5F;
-    const auto x_px = hn::Add(lanes_from(d, static_cast<float>(x)), hn::Set(d, 0.5F));
-    const auto term = [&](int component) {
-        return hn::Add(hn::Set(d, h[2][component] + y_px * h[1][component]),
-                       hn::Mul(x_px, hn::Set(d, h[0][component])));
-    };
-    const auto w = term(2);
+    const RowPlaces<D> places{d, h, y};
+    const auto x_px = places.x_px_of(d, x);
+    const auto w = places.term(d, x_px, 2);
     const auto per_w = hn::Div(hn::Set(d, 1.0F), w);
-    const auto place_x = hn::Mul(term(0), per_w);
-    const auto place_y = hn::Mul(term(1), per_w);
+    const auto place_x = hn::Mul(places.term(d, x_px, 0), per_w);
+    const auto place_y = hn::Mul(places.term(d, x_px, 1), per_w);
     const auto within = [&](hn::Vec<D> place, int size) {
         return hn::And(hn::Ge(place, hn::Zero(d)), hn::Lt(place, hn::Set(d, static_cast<float>(size))));
     };
@@ -245,39 +261,45 @@ std::optional<BackgroundRun> background_run(const SplatInput& input, const glm::
 }
 
 // False when the places of a vector lie too wide apart for this. May have shown some by then.
-template <class D>
+template <bool kTwoRows, class D>
 HWY_INLINE bool show_background_run(D d, const SplatInput& input, const glm::mat3& h, const BackgroundRun& run, int x,
                                     int y, DisplayFrame& out) {
     const hn::RebindToUnsigned<D> du;
     const hn::RebindToSigned<D> di;
     const hn::Rebind<std::uint8_t, D> d8;
     const int lanes = static_cast<int>(hn::Lanes(d));
-    const glm::ivec2 size_px = input.pixels->depth.size_px();
-    const int last_first = size_px.x - 2 * lanes;  // two vectors are read at once
+    const int width = input.pixels->depth.width();
+    const int last_first = width - 2 * lanes;  // two vectors are read at once
     if (last_first < 0) return false;
     const auto* upper = reinterpret_cast<const std::uint32_t*>(input.pixels->colour.row(run.row).data());
     const auto* lower = reinterpret_cast<const std::uint32_t*>(input.pixels->colour.row(run.last_row).data());
+    auto* colours = reinterpret_cast<std::uint32_t*>(out.colour.row(y).data() + x);
+    auto* depths = out.depth.row(y).data() + x;
+    auto* coverages = reinterpret_cast<std::uint8_t*>(out.coverage.row(y).data() + x);
+    const RowPlaces<D> places{d, h, y};
     const auto lower_y = hn::Set(d, static_cast<float>(run.row + 1));
-    const std::size_t end_lane = run.rightwards ? 0 : hn::Lanes(d) - 1;
-    const std::size_t at =
-        static_cast<std::size_t>(y) * static_cast<std::size_t>(out.colour.width()) + static_cast<std::size_t>(x);
+    const std::size_t least_lane = run.rightwards ? 0 : hn::Lanes(d) - 1;
+    HWY_ALIGN std::int32_t columns[kMaxLanes];
     for (int i = 0; i < kRun_px; i += lanes) {
-        const SourcePlaces<D> places = source_places(d, h, size_px, x + i, y);
-        const auto column = hn::ConvertTo(di, places.x_px);
-        const int first = std::min(hn::ExtractLane(column, end_lane), last_first);
-        if (hn::ExtractLane(column, hn::Lanes(d) - 1 - end_lane) - first >= 2 * lanes) return false;
-        __builtin_prefetch(lower + first + size_px.x);  // of the next row, which lies in another page
+        const auto x_px = places.x_px_of(d, x + i);
+        const auto per_w = hn::Div(hn::Set(d, 1.0F), places.term(d, x_px, 2));
+        const auto column = hn::ConvertTo(di, hn::Mul(places.term(d, x_px, 0), per_w));
+        hn::Store(column, di, columns);
+        const int first = std::min(columns[least_lane], last_first);
+        if (columns[hn::Lanes(d) - 1 - least_lane] - first >= 2 * lanes) return false;
+        __builtin_prefetch(lower + first + width);  // of the next row, which lies in another page
         const auto offset = hn::Sub(column, hn::Set(di, first));
         const auto shown_of = [&](const std::uint32_t* row) LW_INLINE_LAMBDA {
             return pick(du, hn::LoadU(du, row + first), hn::LoadU(du, row + first + lanes), offset);
         };
-        const auto in_lower = hn::RebindMask(du, hn::Ge(places.y_px, lower_y));
-        const auto colour = hn::IfThenElse(in_lower, shown_of(lower), shown_of(upper));
-        const std::size_t to = at + static_cast<std::size_t>(i);
-        hn::StoreU(hn::Or(colour, hn::Set(du, 0xFF000000U)), du,
-                   reinterpret_cast<std::uint32_t*>(out.colour.pixels().data() + to));
-        hn::StoreU(hn::Zero(d), d, out.depth.pixels().data() + to);
-        hn::StoreU(hn::Set(d8, 1), d8, reinterpret_cast<std::uint8_t*>(out.coverage.pixels().data() + to));
+        auto colour = shown_of(upper);
+        if constexpr (kTwoRows) {
+            const auto in_lower = hn::Ge(hn::Mul(places.term(d, x_px, 1), per_w), lower_y);
+            colour = hn::IfThenElse(hn::RebindMask(du, in_lower), shown_of(lower), colour);
+        }
+        hn::StoreU(hn::Or(colour, hn::Set(du, 0xFF000000U)), du, colours + i);
+        hn::StoreU(hn::Zero(d), d, depths + i);
+        hn::StoreU(hn::Set(d8, 1), d8, coverages + i);
     }
     return true;
 }
@@ -311,7 +333,10 @@ void resolve_unreached_here(const SplatInput& input, const BackgroundLookup& bac
         int x = target.first_px.x;
         for (; x + kRun_px <= target.end_px.x; x += kRun_px) {
             const std::optional<BackgroundRun> run = background_run(input, h, x, y);
-            if (!run || !show_background_run(d, input, h, *run, x, y, out)) one_by_one(x, x + kRun_px, y);
+            const bool shown =
+                run && (run->row == run->last_row ? show_background_run<false>(d, input, h, *run, x, y, out)
+                                                  : show_background_run<true>(d, input, h, *run, x, y, out));
+            if (!shown) one_by_one(x, x + kRun_px, y);
         }
         one_by_one(x, target.end_px.x, y);
     }

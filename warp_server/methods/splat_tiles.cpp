@@ -10,7 +10,6 @@ namespace {
 // One block with what a first look shows. Plain loops of fixed length: the compiler makes vectors of them.
 struct BlockSummary {
     bool one_object = true;
-    bool all_usable = true;
     bool background = true;
     float least_depth = 1.0F;     // of usable pixels that are not background
     float greatest_depth = 0.0F;  // of the same
@@ -24,7 +23,6 @@ BlockSummary summary_of(const float* depth, const ObjectId* object, int count) {
         const bool usable = is_usable_depth(depth[i]);
         const bool background = depth[i] == 0.0F && object[i] == 0;
         block.one_object &= object[i] == object[0];
-        block.all_usable &= usable;
         block.background &= background;
         block.points += background ? 0 : 1;
         block.unusable += usable ? 0 : 1;
@@ -41,25 +39,17 @@ public:
         tiles_->blocks_per_row = (tiles_->size_px.x + kBlockWidth_px - 1) / kBlockWidth_px;
         const auto blocks =
             static_cast<std::size_t>(tiles_->blocks_per_row) * static_cast<std::size_t>(tiles_->size_px.y);
-        tiles_->kinds.resize(blocks);
         tiles_->background.resize(blocks);
-        tiles_->objects.resize(blocks);
-        plain_.resize(blocks);
     }
 
     std::shared_ptr<const SplatTiles> build() {
         for (int y = 0; y < tiles_->size_px.y; y += kBandHeight_px) add_band(y, std::min(y + kBandHeight_px, height()));
         tiles_->first_patch.push_back(static_cast<int>(tiles_->patches.size()));
-        for (int y = 0; y < height(); ++y) {
-            for (int block = 0; block < tiles_->blocks_per_row; ++block) {
-                BlockKind& kind = tiles_->kinds[index(block, y)];
-                if (kind == BlockKind::mixed && is_uniform(block, y)) kind = BlockKind::uniform;
-            }
-        }
         return tiles_;
     }
 
 private:
+    [[nodiscard]] int width() const { return tiles_->size_px.x; }
     [[nodiscard]] int height() const { return tiles_->size_px.y; }
     [[nodiscard]] std::size_t index(int block, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles_->blocks_per_row) +
@@ -76,7 +66,17 @@ private:
             for (int y = begin_y; y < end_y; ++y) {
                 for (int block = tile * blocks_per_tile; block < end_block; ++block) add_block(tile, block, y);
             }
+            add_runs({{tile * kTileWidth_px, begin_y}, {std::min((tile + 1) * kTileWidth_px, width()), end_y}});
         }
+    }
+
+    void add_runs(const PixelRect& tile) {
+        std::vector<SplatRun>& runs = tiles_->runs;
+        const std::size_t first = runs.size();
+        if (tiles_->points.back() > 0) append_runs(pixels_, tile, runs, others_);
+        tiles_->tile_runs.push_back({first, runs.size(), runs.size() + others_.size()});
+        runs.insert(runs.end(), others_.begin(), others_.end());
+        others_.clear();
     }
 
     void add_block(int tile, int block, int y) {
@@ -86,13 +86,9 @@ private:
         const int count = std::min(kBlockWidth_px, tiles_->size_px.x - x);
         const BlockSummary summary =
             count == kBlockWidth_px ? summary_of(depth, object, kBlockWidth_px) : summary_of(depth, object, count);
-        const std::size_t i = index(block, y);
-        tiles_->objects[i] = object[0];
-        plain_[i] = summary.one_object && summary.all_usable && count == kBlockWidth_px ? 1 : 0;
-        tiles_->kinds[i] = summary.background ? BlockKind::empty : BlockKind::mixed;
-        tiles_->background[i] = summary.background        ? BackgroundShare::all
-                                : summary.points == count ? BackgroundShare::none
-                                                          : BackgroundShare::some;
+        tiles_->background[index(block, y)] = summary.background        ? BackgroundShare::all
+                                              : summary.points == count ? BackgroundShare::none
+                                                                        : BackgroundShare::some;
         if (summary.background) return;
         tiles_->points.back() += summary.points;
         if (summary.one_object) {
@@ -127,27 +123,10 @@ private:
         tiles_->patches.push_back({tile, object, least_depth, greatest_depth});
     }
 
-    // The block and the pixels around it. Blocks at the border of the image have none there.
-    [[nodiscard]] bool is_uniform(int block, int y) const {
-        if (block == 0 || block + 1 >= tiles_->blocks_per_row || y == 0 || y + 1 >= height()) return false;
-        const std::size_t i = index(block, y);
-        const ObjectId object = tiles_->objects[i];
-        for (const int row : {y - 1, y, y + 1}) {
-            const std::size_t k = index(block, row);
-            if (plain_[k] == 0 || tiles_->objects[k] != object) return false;
-        }
-        const int x = block * kBlockWidth_px;
-        const auto joins = [&](int at_x) {
-            return at_x < tiles_->size_px.x && pixels_.object_id.at(at_x, y) == object &&
-                   is_usable_depth(pixels_.depth.at(at_x, y));
-        };
-        return joins(x - 1) && joins(x + kBlockWidth_px);
-    }
-
     const CpuPixels& pixels_;
     std::shared_ptr<SplatTiles> tiles_ = std::make_shared<SplatTiles>();
-    std::vector<std::uint8_t> plain_;  // by block: one object and usable, its neighbours not asked
-    std::size_t first_of_tile_ = 0;    // patches of the tile being added start here
+    std::vector<SplatRun> others_;   // of the tile being added, those that are not smooth
+    std::size_t first_of_tile_ = 0;  // patches of the tile being added start here
 };
 
 }  // namespace

@@ -1,27 +1,29 @@
 #pragma once
-/// What `splat` works out once per layer: which runs of pixels need no second look, and what every tile can reach.
+/// What `splat` works out once per layer: which pixels it places together, and what every tile can reach.
 
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "frame_link/rendered_frame.h"
+#include "warp_server/methods/splat_runs.h"
 
 namespace lw {
 
-/// Pixels are looked at in blocks of 16 in one row; 4 blocks by 16 rows are a tile, and a row of tiles is a band.
-inline constexpr int kBlockWidth_px = 16;
+/// 4 blocks by 16 rows are a tile, and a row of tiles is a band.
 inline constexpr int kTileWidth_px = 64;
 inline constexpr int kBandHeight_px = 16;
 
-enum class BlockKind : std::uint8_t {
-    empty,    ///< background of object 0 alone: nothing to place
-    uniform,  ///< all depths usable and one object, the pixels around the block included
-    mixed,    ///< anything else; each pixel must be asked
-};
-
 /// How many pixels of a block are background of object 0.
 enum class BackgroundShare : std::uint8_t { none, some, all };
+
+/// Which `runs` of SplatTiles are a tile's: [first, first_other) are smooth, [first_other, end) are not.
+struct TileRuns {
+    std::size_t first = 0;
+    std::size_t first_other = 0;
+    std::size_t end = 0;
+};
 
 /// The part of one object inside one tile.
 struct TilePatch {
@@ -41,9 +43,9 @@ struct ObjectPixels {
 struct SplatTiles final : PreparedLayer {
     glm::ivec2 size_px{0};
     int blocks_per_row = 0;
-    std::vector<BlockKind> kinds;                ///< by row, blocks_per_row each
-    std::vector<BackgroundShare> background;     ///< by row, like kinds
-    std::vector<ObjectId> objects;               ///< of uniform blocks; else the object of the block's first pixel
+    std::vector<BackgroundShare> background;     ///< by row, blocks_per_row each
+    std::vector<SplatRun> runs;                  ///< by band and tile; of a tile the smooth ones first
+    std::vector<TileRuns> tile_runs;             ///< by band and tile
     std::vector<TilePatch> patches;              ///< by band
     std::vector<int> first_patch;                ///< of every band, and one more entry for the end
     std::vector<int> points;                     ///< by band and tile: pixels that are not background
@@ -60,6 +62,9 @@ struct SplatTiles final : PreparedLayer {
     }
     [[nodiscard]] int points_of(int band, int tile) const {
         return points[static_cast<std::size_t>(band * tiles_per_band() + tile)];
+    }
+    [[nodiscard]] const TileRuns& runs_of(int band, int tile) const {
+        return tile_runs[static_cast<std::size_t>(band * tiles_per_band() + tile)];
     }
     [[nodiscard]] int bands() const { return (size_px.y + kBandHeight_px - 1) / kBandHeight_px; }
     [[nodiscard]] int tiles_per_band() const { return (size_px.x + kTileWidth_px - 1) / kTileWidth_px; }

@@ -43,7 +43,14 @@ void SurfaceCanvas::composite_fragments_so_far(Uncovered uncovered) {
     fragment_count_ = 0;
     const std::size_t stretches = stretch_begin_.size() - 1;
     for (std::size_t i = 0; i < stretches; ++i) {
-        if (i + 1 < stretches) prefetch_stretch(i + 1);
+        if (i + 1 < stretches) {
+            // The picture there was last used long ago. Not a function of its own: GCC drops calls of functions that do
+            // nothing but this.
+            for (std::size_t k = stretch_begin_[i + 1]; k < stretch_begin_[i + 2]; ++k) {
+                __builtin_prefetch(frame_->depth.pixels().data() + sorted_[k].pixel, 1);
+                __builtin_prefetch(frame_->colour.pixels().data() + sorted_[k].pixel, 1);
+            }
+        }
         composite_stretch(i, uncovered);
     }
 }
@@ -73,14 +80,6 @@ void SurfaceCanvas::sort_fragments(std::size_t pixel_count) {
     // Each begin has moved on to its end, which is the next one's begin.
     for (std::size_t i = stretches; i > 0; --i) stretch_begin_[i] = stretch_begin_[i - 1];
     stretch_begin_[0] = 0;
-}
-
-// The picture there was last used long ago.
-void SurfaceCanvas::prefetch_stretch(std::size_t stretch) const {
-    for (std::size_t i = stretch_begin_[stretch]; i < stretch_begin_[stretch + 1]; ++i) {
-        __builtin_prefetch(frame_->depth.pixels().data() + sorted_[i].pixel, 1);
-        __builtin_prefetch(frame_->colour.pixels().data() + sorted_[i].pixel, 1);
-    }
 }
 
 void SurfaceCanvas::composite_stretch(std::size_t stretch, Uncovered uncovered) {

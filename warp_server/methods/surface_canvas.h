@@ -69,7 +69,6 @@ private:
     [[nodiscard]] std::size_t pixel_count() const;
     void composite_fragments_so_far(Uncovered uncovered);
     void sort_fragments(std::size_t pixel_count);
-    void prefetch_stretch(std::size_t stretch) const;
     void composite_stretch(std::size_t stretch, Uncovered uncovered);
     void put_off_uncovered(std::size_t first);
     // One pixel with any number of fragments, as composite_fragments has it.

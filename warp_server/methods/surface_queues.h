@@ -52,6 +52,8 @@ public:
         hn::Store(taps.y, DI{}, run.y);
         hn::Store(taps.fx, DI{}, run.fx);
         hn::Store(taps.fy, DI{}, run.fy);
+        // Where a tile begins, no run above has asked for these.
+        reader_.prefetch_row(hn::GetLane(taps.x), hn::GetLane(taps.y));
         if (count_ == kRuns) flush();
     }
 

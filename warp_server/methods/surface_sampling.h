@@ -76,11 +76,18 @@ public:
         }
     }
 
-    /// Asks for the values some rows below one of the image's, which the next runs of pixels read.
-    HWY_INLINE void prefetch_below(int column, int row) const {
-        const std::uint16_t* from = values_ + (row + kPrefetchRows) * row_stride_ + column;
-        for (std::ptrdiff_t channel = 0; channel < 3; ++channel) __builtin_prefetch(from + channel * channel_stride_);
+    /// Asks for a vector's stretch of values of one of the image's rows.
+    HWY_INLINE void prefetch_row(int column, int row) const {
+        const std::uint16_t* from = values_ + row * row_stride_ + column;
+        for (std::ptrdiff_t channel = 0; channel < 3; ++channel) {
+            // Both lines that such a read meets: with the first alone `surface` took a fourteenth longer.
+            __builtin_prefetch(from + channel * channel_stride_);
+            __builtin_prefetch(from + channel * channel_stride_ + LinearImage::kSpareColumns - 1);
+        }
     }
+
+    /// The same some rows below, for the next runs of pixels.
+    HWY_INLINE void prefetch_below(int column, int row) const { prefetch_row(column, row + kPrefetchRows); }
 
     /// Bilinear colours at the taps, which may be anywhere.
     [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {

@@ -10,8 +10,8 @@ constexpr std::size_t kMostKeys = 128 * 1024;
 constexpr int kMostPanels = 4;
 constexpr int kLeastColumns = 4 * kTileWidth_px;
 
-// A target pixel costs something, too, where no point lands: about half of a point.
-constexpr float kCostOfPoint = 2.0F;
+// A target pixel costs something, too, where no point lands: about a third of a point.
+constexpr float kCostOfPoint = 3.0F;
 constexpr float kCostOfPixel = 1.0F;
 
 RowRange joined(const RowRange& a, const RowRange& b) {

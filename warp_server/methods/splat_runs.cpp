@@ -55,6 +55,8 @@ Slope<D> slope(D d, hn::Vec<D> depth, hn::Vec<D> before, hn::Vec<D> after) {
 
 // One bit per pixel of a block, of whatever objects.
 struct BlockMasks {
+    std::uint32_t background = 0;
+    std::uint32_t unusable = 0;
     std::uint32_t points = 0;
     std::uint32_t after_x = 0;
     std::uint32_t before_x = 0;
@@ -72,7 +74,10 @@ HWY_INLINE void look_at(D d, const CpuPixels& pixels, int x, int y, int first, B
     const auto depth = hn::LoadU(d, depths);
     const auto ids = load_ids(d, id_row);
     const auto background = hn::And(hn::Eq(depth, hn::Zero(d)), hn::RebindMask(d, hn::Eq(ids, hn::Zero(du))));
-    const auto points = hn::AndNot(background, usable(d, depth));
+    const auto is_usable = usable(d, depth);
+    const auto points = hn::AndNot(background, is_usable);
+    masks.background |= bits_of(d, background) << first;
+    masks.unusable |= bits_of(d, hn::Not(is_usable)) << first;
     if (hn::AllFalse(d, points)) return;
 
     // Reading one pixel beyond a row's end meets the next row, which the masks below undo; only the very first and last
@@ -125,9 +130,47 @@ std::uint32_t pixels_of(const ObjectId* ids, ObjectId object, std::uint32_t poin
     return same;
 }
 
-void append_block(const CpuPixels& pixels, int x, int y, std::vector<SplatRun>& smooth, std::vector<SplatRun>& others) {
+// Of the pixels `own` of a block; `is_whole`: all 16 are there.
+ObjectDepths depths_of(const float* depths, ObjectId object, std::uint32_t own, bool is_whole) {
+    const hn::CappedTag<float, kBlockWidth_px> d;
+    const int lanes = static_cast<int>(hn::Lanes(d));
+    ObjectDepths found{object};
+    if (!is_whole) {
+        for (; own != 0; own &= own - 1) {
+            const float depth = depths[std::countr_zero(own)];
+            found = {object, std::min(found.least, depth), std::max(found.greatest, depth)};
+        }
+        return found;
+    }
+    auto least = hn::Set(d, found.least);
+    auto greatest = hn::Set(d, found.greatest);
+    for (int i = 0; i < kBlockWidth_px; i += lanes) {
+        const auto mine = lanes_of_bits(d, own >> static_cast<unsigned>(i) & ((1U << hn::Lanes(d)) - 1U));
+        const auto depth = hn::LoadU(d, depths + i);
+        least = hn::IfThenElse(mine, hn::Min(least, depth), least);
+        greatest = hn::IfThenElse(mine, hn::Max(greatest, depth), greatest);
+    }
+    return {object, hn::GetLane(hn::MinOfLanes(d, least)), hn::GetLane(hn::MaxOfLanes(d, greatest))};
+}
+
+void add(std::vector<ObjectDepths>& objects, const ObjectDepths& depths) {
+    // Most often the one that was met last.
+    const auto known = std::find_if(objects.rbegin(), objects.rend(),
+                                    [&](const ObjectDepths& other) { return other.object == depths.object; });
+    if (known == objects.rend()) {
+        objects.push_back(depths);
+        return;
+    }
+    known->least = std::min(known->least, depths.least);
+    known->greatest = std::max(known->greatest, depths.greatest);
+}
+
+void find_in_block(const CpuPixels& pixels, int x, int y, TilePixels& found) {
     const BlockMasks masks = masks_of(pixels, x, y);
+    const float* depths = pixels.depth.row(y).data() + x;
     const ObjectId* ids = pixels.object_id.row(y).data() + x;
+    const bool is_whole = x + kBlockWidth_px <= pixels.depth.width();
+    found.rests.push_back({static_cast<std::uint16_t>(masks.background), static_cast<std::uint16_t>(masks.unusable)});
     for (std::uint32_t remaining = masks.points; remaining != 0;) {
         const ObjectId object = ids[std::countr_zero(remaining)];
         const std::uint32_t own = pixels_of(ids, object, remaining);
@@ -141,14 +184,18 @@ void append_block(const CpuPixels& pixels, int x, int y, std::vector<SplatRun>& 
                            of_own(masks.before_x),
                            of_own(masks.after_y),
                            of_own(masks.before_y)};
-        (run.is_smooth() ? smooth : others).push_back(run);
+        (run.is_smooth() ? found.smooth : found.others).push_back(run);
+        add(found.objects, depths_of(depths, object, own, is_whole));
     }
 }
 
-void append_runs_here(const CpuPixels& pixels, const PixelRect& tile, std::vector<SplatRun>& smooth,
-                      std::vector<SplatRun>& others) {
+void find_runs_here(const CpuPixels& pixels, const PixelRect& tile, TilePixels& found) {
+    found.smooth.clear();
+    found.others.clear();
+    found.objects.clear();
+    found.rests.clear();
     for (int x = tile.first_px.x; x < tile.end_px.x; x += kBlockWidth_px) {
-        for (int y = tile.first_px.y; y < tile.end_px.y; ++y) append_block(pixels, x, y, smooth, others);
+        for (int y = tile.first_px.y; y < tile.end_px.y; ++y) find_in_block(pixels, x, y, found);
     }
 }
 
@@ -159,11 +206,10 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace lw {
 
-HWY_EXPORT(append_runs_here);
+HWY_EXPORT(find_runs_here);
 
-void append_runs(const CpuPixels& pixels, const PixelRect& tile, std::vector<SplatRun>& smooth,
-                 std::vector<SplatRun>& others) {
-    HWY_DYNAMIC_DISPATCH(append_runs_here)(pixels, tile, smooth, others);
+void find_runs(const CpuPixels& pixels, const PixelRect& tile, TilePixels& found) {
+    HWY_DYNAMIC_DISPATCH(find_runs_here)(pixels, tile, found);
 }
 
 }  // namespace lw

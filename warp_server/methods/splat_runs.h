@@ -31,9 +31,30 @@ struct SplatRun {
     bool operator==(const SplatRun&) const = default;
 };
 
-/// Appends the runs of the blocks in `tile`, block by block, each down its rows: neighbours of a column are placed one
-/// after the other. Sides of images are below 65536 px, and the tile begins at a multiple of kBlockWidth_px.
-void append_runs(const CpuPixels& pixels, const PixelRect& tile, std::vector<SplatRun>& smooth,
-                 std::vector<SplatRun>& others);
+/// Usable depths of one object, background left out.
+struct ObjectDepths {
+    ObjectId object = 0;
+    float least = 1.0F;
+    float greatest = 0.0F;
+};
+
+/// Pixels of one block that are no points: bit i stands for pixel i.
+struct BlockRest {
+    std::uint16_t background = 0;  ///< of object 0
+    std::uint16_t unusable = 0;    ///< depth is NaN or outside [0, 1]
+};
+
+/// What one look at the pixels of a tile finds. Block by block, each down its rows: neighbours of a column are placed
+/// one after the other.
+struct TilePixels {
+    std::vector<SplatRun> smooth;
+    std::vector<SplatRun> others;
+    std::vector<ObjectDepths> objects;  ///< each object of the runs once
+    std::vector<BlockRest> rests;       ///< of every block
+};
+
+/// Looks at the pixels of `tile`, which begins at a multiple of kBlockWidth_px. Sides of images are below 65536 px.
+/// Reuses the memory of `found`.
+void find_runs(const CpuPixels& pixels, const PixelRect& tile, TilePixels& found);
 
 }  // namespace lw

@@ -48,7 +48,7 @@ struct SplatTiles final : PreparedLayer {
     std::vector<TileRuns> tile_runs;             ///< by band and tile
     std::vector<TilePatch> patches;              ///< by band
     std::vector<int> first_patch;                ///< of every band, and one more entry for the end
-    std::vector<int> points;                     ///< by band and tile: pixels that are not background
+    std::vector<int> points;                     ///< by band and tile
     std::vector<ObjectPixels> pixels_of_object;  ///< by id, up to the largest id there is
 
     /// What the blocks of the pixels [begin_x, end_x) of row y hold. 0 <= begin_x < end_x <= width.

@@ -114,6 +114,7 @@ public:
 
     void paint_tiles(const SurfaceTiles& tiles, ListRange range) {
         const auto paint = [&](std::size_t first, std::uint32_t bits, const PlacedPatches& placed, auto) {
+            fetch_cells(tiles, first + kTilesAhead);
             for (; bits != 0; bits &= bits - 1) {
                 const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
                 if (is_hidden(lane, placed)) {
@@ -130,6 +131,7 @@ public:
 
 private:
     static constexpr std::size_t kPatchesAhead = 64;
+    static constexpr std::size_t kTilesAhead = 16;
 
     [[nodiscard]] static bool has_lattice(const PatchInput& input) {
         return input.between_pixels && input.prepared->lattice.size_px().x > 0;
@@ -160,6 +162,19 @@ private:
             __builtin_prefetch(values->data() + at);
         }
         __builtin_prefetch(list.object_id.data() + at);
+    }
+
+    // What `fetch` leaves out, of as many tiles as there are lanes.
+    HWY_INLINE void fetch_cells(const SurfaceTiles& tiles, std::size_t at) const {
+        for (const std::vector<float>* values :
+             {&tiles.edge_left, &tiles.edge_right, &tiles.edge_top, &tiles.edge_bottom}) {
+            __builtin_prefetch(values->data() + at);
+        }
+        constexpr std::size_t kPerLine = 64 / sizeof(std::uint32_t) / kTileSize;  // tiles
+        for (std::size_t i = 0; i < hn::Lanes(DF{}); i += kPerLine) {
+            __builtin_prefetch(tiles.cells.data() + kTileSize * (at + i));
+            if (fragments_.has_lattices()) __builtin_prefetch(tiles.edge_number.data() + kTileSize * (at + i));
+        }
     }
 
     template <class D, class Paint>

@@ -162,6 +162,8 @@ private:
             __builtin_prefetch(values->data() + at);
         }
         __builtin_prefetch(list.object_id.data() + at);
+        __builtin_prefetch(list.corners.data() + at);
+        if (!list.edge_number.empty()) __builtin_prefetch(list.edge_number.data() + at);
     }
 
     // What `fetch` leaves out, of as many tiles as there are lanes.

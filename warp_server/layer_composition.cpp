@@ -6,8 +6,8 @@
 #include "core/camera_picture.h"
 #include "core/check.h"
 #include "warp_server/held_depths.h"
+#include "warp_server/methods/depth_rows.h"
 #include "warp_server/methods/homography_resample.h"
-#include "warp_server/methods/surface_kernels.h"
 #include "warp_server/stepped_warp.h"
 
 namespace lw {

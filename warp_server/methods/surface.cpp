@@ -7,6 +7,7 @@
 #include "core/stopwatch.h"
 #include "core/task_pool.h"
 #include "warp_server/methods/band_balance.h"
+#include "warp_server/methods/depth_rows.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
 #include "warp_server/methods/object_matrices.h"

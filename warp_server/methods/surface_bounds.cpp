@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "warp_server/methods/depth_rows.h"
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_classify.h"
-#include "warp_server/methods/surface_kernels.h"
 
 namespace lw {
 namespace {

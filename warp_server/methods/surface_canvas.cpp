@@ -6,8 +6,8 @@
 #include <tuple>
 
 #include "core/colour.h"
+#include "warp_server/methods/depth_rows.h"
 #include "warp_server/methods/linear_colour.h"
-#include "warp_server/methods/surface_kernels.h"
 
 namespace lw {
 

@@ -476,30 +476,6 @@ void draw_tiles_here(const PatchInput& input, ListRange range, SurfaceCanvas& ca
     Painter{input, canvas, behind}.paint_tiles(input.prepared->tiles, range);
 }
 
-std::size_t count_below_here(const float* depths, std::size_t count, float limit) {
-    const std::size_t lanes = hn::Lanes(DF{});
-    std::size_t below = 0;
-    std::size_t i = 0;
-    for (; i + lanes <= count; i += lanes) {
-        below += hn::CountTrue(DF{}, hn::Lt(hn::LoadU(DF{}, depths + i), hn::Set(DF{}, limit)));
-    }
-    for (; i < count; ++i) below += depths[i] < limit ? 1 : 0;
-    return below;
-}
-
-void mark_coverage_here(const float* depths, std::size_t count, Coverage* coverage) {
-    const hn::Rebind<std::uint8_t, DF> d8;
-    auto* bytes = reinterpret_cast<std::uint8_t*>(coverage);
-    const std::size_t lanes = hn::Lanes(DF{});
-    std::size_t i = 0;
-    for (; i + lanes <= count; i += lanes) {
-        const auto reached = hn::Ge(hn::LoadU(DF{}, depths + i), hn::Zero(DF{}));
-        const auto value = hn::IfThenElseZero(hn::RebindMask(DI{}, reached), hn::Set(DI{}, 1));
-        hn::StoreU(hn::DemoteTo(d8, value), d8, bytes + i);
-    }
-    for (; i < count; ++i) coverage[i] = depths[i] >= 0.0F ? Coverage::reached : Coverage::hole;
-}
-
 }  // namespace
 }  // namespace lw::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
@@ -509,8 +485,6 @@ namespace lw {
 
 HWY_EXPORT(draw_patches_here);
 HWY_EXPORT(draw_tiles_here);
-HWY_EXPORT(mark_coverage_here);
-HWY_EXPORT(count_below_here);
 
 void draw_patches(const PatchInput& input, const PatchList& list, ListRange range, SurfaceCanvas& canvas,
                   std::vector<std::uint32_t>& behind) {
@@ -519,14 +493,6 @@ void draw_patches(const PatchInput& input, const PatchList& list, ListRange rang
 
 void draw_tiles(const PatchInput& input, ListRange range, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind) {
     if (range.begin < range.end) HWY_DYNAMIC_DISPATCH(draw_tiles_here)(input, range, canvas, behind);
-}
-
-std::size_t count_below(const float* depths, std::size_t count, float limit) {
-    return HWY_DYNAMIC_DISPATCH(count_below_here)(depths, count, limit);
-}
-
-void mark_coverage(const float* depths, std::size_t count, Coverage* coverage) {
-    HWY_DYNAMIC_DISPATCH(mark_coverage_here)(depths, count, coverage);
 }
 
 }  // namespace lw

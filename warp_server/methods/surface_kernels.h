@@ -28,10 +28,4 @@ void draw_patches(const PatchInput& input, const PatchList& list, ListRange rang
 /// The same for `prepared->tiles`.
 void draw_tiles(const PatchInput& input, ListRange range, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind);
 
-/// How many of the depths are below `limit`.
-[[nodiscard]] std::size_t count_below(const float* depths, std::size_t count, float limit);
-
-/// Reached where a depth is 0 or more, a hole where it is negative.
-void mark_coverage(const float* depths, std::size_t count, Coverage* coverage);
-
 }  // namespace lw

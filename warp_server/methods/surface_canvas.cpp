@@ -26,11 +26,14 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band, StackBase base) {
     if (base == StackBase::nothing) {
         std::memset(out.depth.pixels().data() + first_index_, kNothingByte, count * sizeof(float));
     }
-    fragment_count_ = 0;
+    fragments_.begin(count);
     waiting_.clear();
     partly_covered_.clear();
     skips_ = {};
-    newest_.fill(-1);
+    for (Stretch& stretch : stretches_) {
+        stretch.newest.fill(-1);
+        stretch.touched.clear();
+    }
 }
 
 std::size_t SurfaceCanvas::pixel_count() const {
@@ -38,102 +41,87 @@ std::size_t SurfaceCanvas::pixel_count() const {
 }
 
 void SurfaceCanvas::composite_fragments_so_far(Uncovered uncovered) {
-    if (fragment_count_ == 0) return;
-    sort_fragments(pixel_count());
-    fragment_count_ = 0;
-    const std::size_t stretches = stretch_begin_.size() - 1;
-    for (std::size_t i = 0; i < stretches; ++i) {
-        if (i + 1 < stretches) {
-            // The picture there was last used long ago. Not a function of its own: GCC drops calls of functions that do
-            // nothing but this.
-            for (std::size_t k = stretch_begin_[i + 1]; k < stretch_begin_[i + 2]; ++k) {
-                __builtin_prefetch(frame_->depth.pixels().data() + sorted_[k].pixel, 1);
-                __builtin_prefetch(frame_->colour.pixels().data() + sorted_[k].pixel, 1);
-            }
-        }
-        composite_stretch(i, uncovered);
+    if (fragments_.empty()) return;
+    const std::size_t count = fragments_.stretches();
+    list_fragments(0, stretches_[0]);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (i + 1 < count) list_fragments(i + 1, stretches_[(i + 1) % 2]);
+        composite_stretch(stretches_[i % 2], uncovered);
     }
+    fragments_.begin(pixel_count());
 }
 
 void SurfaceCanvas::finish() {
-    reserve_fragments(waiting_.size());
-    std::copy(waiting_.begin(), waiting_.end(), fragments_.begin() + static_cast<std::ptrdiff_t>(fragment_count_));
-    fragment_count_ += waiting_.size();
+    for (const auto& [pixel, fragment] : waiting_) put_fragment(pixel, fragment);
     waiting_.clear();
     composite_fragments_so_far(Uncovered::drop);
     mark_coverage(frame_->depth.pixels().data() + first_index_, pixel_count(),
                   frame_->coverage.pixels().data() + first_index_);
 }
 
-// By counting.
-void SurfaceCanvas::sort_fragments(std::size_t pixel_count) {
-    const std::size_t stretches = (pixel_count + kStretch - 1) >> kStretchBits;
-    const auto stretch_of = [&](const SurfaceFragment& fragment) {
-        return (fragment.pixel - first_index_) >> kStretchBits;
-    };
-    const std::span<const SurfaceFragment> fragments{fragments_.data(), fragment_count_};
-    stretch_begin_.assign(stretches + 1, 0);
-    for (const SurfaceFragment& fragment : fragments) ++stretch_begin_[stretch_of(fragment) + 1];
-    for (std::size_t i = 1; i <= stretches; ++i) stretch_begin_[i] += stretch_begin_[i - 1];
-    if (sorted_.size() < fragment_count_) sorted_.resize(fragments_.size());
-    for (const SurfaceFragment& fragment : fragments) sorted_[stretch_begin_[stretch_of(fragment)]++] = fragment;
-    // Each begin has moved on to its end, which is the next one's begin.
-    for (std::size_t i = stretches; i > 0; --i) stretch_begin_[i] = stretch_begin_[i - 1];
-    stretch_begin_[0] = 0;
+// Lists by pixel. The picture there was last used long ago: it is on its way while the stretch before is put together.
+void SurfaceCanvas::list_fragments(std::size_t number, Stretch& stretch) {
+    stretch.first_pixel = first_index_ + (number << SurfaceFragments::kStretchBits);
+    const float* depths = frame_->depth.pixels().data() + stretch.first_pixel;
+    const Rgba8* colours = frame_->colour.pixels().data() + stretch.first_pixel;
+    fragments_.visit(number, [&](SurfaceFragment& fragment, std::uint32_t index) {
+        const auto pixel = static_cast<std::size_t>(fragment.link);
+        std::int32_t& newest = stretch.newest[pixel];
+        if (newest < 0) {
+            stretch.touched.push_back(static_cast<std::uint32_t>(pixel));
+            __builtin_prefetch(depths + pixel, 1);
+            __builtin_prefetch(colours + pixel, 1);
+        }
+        fragment.link = newest;
+        newest = static_cast<std::int32_t>(index);
+    });
 }
 
-void SurfaceCanvas::composite_stretch(std::size_t stretch, Uncovered uncovered) {
-    const std::size_t first = first_index_ + (stretch << kStretchBits);
-    touched_.clear();
-    for (std::size_t i = stretch_begin_[stretch]; i < stretch_begin_[stretch + 1]; ++i) {
-        const std::size_t pixel = sorted_[i].pixel - first;
-        if (newest_[pixel] < 0) touched_.push_back(static_cast<std::uint32_t>(pixel));
-        sorted_[i].next = newest_[pixel];
-        newest_[pixel] = static_cast<std::int32_t>(i);
-    }
-    if (uncovered == Uncovered::wait) put_off_uncovered(first);
-    const FragmentLists lists{sorted_,
-                              newest_.data(),
-                              frame_->depth.pixels().data() + first,
-                              frame_->colour.pixels().data() + first,
-                              static_cast<std::uint32_t>(first),
+// Leaves it without any.
+void SurfaceCanvas::composite_stretch(Stretch& stretch, Uncovered uncovered) {
+    if (uncovered == Uncovered::wait) put_off_uncovered(stretch);
+    const FragmentLists lists{fragments_.all(),
+                              stretch.newest.data(),
+                              frame_->depth.pixels().data() + stretch.first_pixel,
+                              frame_->colour.pixels().data() + stretch.first_pixel,
+                              static_cast<std::uint32_t>(stretch.first_pixel),
                               &partly_covered_};
-    const std::size_t left = composite_fragments(lists, touched_);
+    const std::size_t left = composite_fragments(lists, stretch.touched);
     for (std::size_t i = 0; i < left; ++i) {
-        composite(first + touched_[i]);
-        newest_[touched_[i]] = -1;
+        std::int32_t& newest = stretch.newest[stretch.touched[i]];
+        composite(stretch.first_pixel + stretch.touched[i], newest);
+        newest = -1;
     }
+    stretch.touched.clear();
 }
 
-// Takes pixels out of the stretch from pixel `first` on of which too little is covered; their fragments wait.
-void SurfaceCanvas::put_off_uncovered(std::size_t first) {
-    std::erase_if(touched_, [&](std::uint32_t pixel) {
-        if (frame_->depth.pixels()[first + pixel] >= 0.0F) return false;
+// Takes out pixels of which too little is covered; their fragments wait.
+void SurfaceCanvas::put_off_uncovered(Stretch& stretch) {
+    std::erase_if(stretch.touched, [&](std::uint32_t pixel) {
+        if (frame_->depth.pixels()[stretch.first_pixel + pixel] >= 0.0F) return false;
+        std::int32_t& newest = stretch.newest[pixel];
         float covered = 0.0F;
-        for (std::int32_t i = newest_[pixel]; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
-            covered += sorted_[static_cast<std::size_t>(i)].coverage;
+        for (std::int32_t i = newest; i >= 0; i = fragment(i).link) covered += static_cast<float>(fragment(i).coverage);
+        if (covered >= kCoveredEnough * static_cast<float>(kLinearOne)) return false;
+        for (std::int32_t i = newest; i >= 0; i = fragment(i).link) {
+            waiting_.push_back({stretch.first_pixel + pixel, fragment(i)});
         }
-        if (covered >= kCoveredEnough) return false;
-        for (std::int32_t i = newest_[pixel]; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
-            waiting_.push_back(sorted_[static_cast<std::size_t>(i)]);
-        }
-        newest_[pixel] = -1;
+        newest = -1;
         return true;
     });
 }
 
 std::size_t SurfaceCanvas::count_fragments(std::int32_t newest, float opaque_depth) const {
     std::size_t count = 0;
-    for (std::int32_t i = newest; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
-        if (!(sorted_[static_cast<std::size_t>(i)].depth < opaque_depth)) ++count;
+    for (std::int32_t i = newest; i >= 0; i = fragment(i).link) {
+        if (!(fragment(i).depth < opaque_depth)) ++count;
     }
     return count;
 }
 
-// Sorts by insertion: there are two or three.
-void SurfaceCanvas::composite(std::size_t pixel) {
+// Sorts by insertion: there are a few.
+void SurfaceCanvas::composite(std::size_t pixel, std::int32_t newest) {
     const float opaque_depth = frame_->depth.pixels()[pixel];
-    const std::int32_t newest = newest_[(pixel - first_index_) & (kStretch - 1)];
     std::array<const SurfaceFragment*, kFewFragments> few_sorted;
     const SurfaceFragment** sorted = few_sorted.data();
     const std::size_t most = count_fragments(newest, opaque_depth);
@@ -143,37 +131,35 @@ void SurfaceCanvas::composite(std::size_t pixel) {
     }
     const auto goes_before = [](const SurfaceFragment& a, const SurfaceFragment& b) {
         if (a.depth != b.depth) return a.depth > b.depth;
-        return std::tie(a.coverage, a.linear.x, a.linear.y, a.linear.z) >
-               std::tie(b.coverage, b.linear.x, b.linear.y, b.linear.z);
+        return std::tie(a.coverage, a.red, a.green, a.blue) > std::tie(b.coverage, b.red, b.green, b.blue);
     };
     std::size_t count = 0;
-    for (std::int32_t i = newest; i >= 0; i = sorted_[static_cast<std::size_t>(i)].next) {
-        const SurfaceFragment& fragment = sorted_[static_cast<std::size_t>(i)];
-        if (fragment.depth < opaque_depth) continue;
+    for (std::int32_t i = newest; i >= 0; i = fragment(i).link) {
+        if (fragment(i).depth < opaque_depth) continue;
         std::size_t at = count++;
-        for (; at > 0 && goes_before(fragment, *sorted[at - 1]); --at) sorted[at] = sorted[at - 1];
-        sorted[at] = &fragment;
+        for (; at > 0 && goes_before(fragment(i), *sorted[at - 1]); --at) sorted[at] = sorted[at - 1];
+        sorted[at] = &fragment(i);
     }
-    if (count == 0) return;
-    float covered = 0.0F;
-    for (std::size_t i = 0; i < count; ++i) covered += sorted[i]->coverage;
-    composite(pixel, {sorted, count}, covered);
+    if (count > 0) composite(pixel, {sorted, count});
 }
 
 // Nearest first, each over what is behind it; the farthest surface takes what is left, because the surfaces of one
 // place fill it together.
-void SurfaceCanvas::composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted, float covered) {
+void SurfaceCanvas::composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted) {
     const Rgba8 opaque_colour = frame_->colour.pixels()[pixel];
     const float opaque_depth = frame_->depth.pixels()[pixel];
     const bool has_opaque = opaque_depth >= 0.0F;
     glm::vec3 sum{0.0F};
     float left = 1.0F;
+    float covered = 0.0F;
     float largest_share = 0.0F;
     float shown_depth = opaque_depth;
     for (std::size_t i = 0; i < sorted.size(); ++i) {
         const bool is_last = !has_opaque && i + 1 == sorted.size();
-        const float share = is_last ? left : left * sorted[i]->coverage;
-        sum += share * sorted[i]->linear;
+        const float coverage = static_cast<float>(sorted[i]->coverage) * (1.0F / static_cast<float>(kLinearOne));
+        const float share = is_last ? left : left * coverage;
+        sum += share * glm::vec3{sorted[i]->red, sorted[i]->green, sorted[i]->blue};
+        covered += coverage;
         left -= share;
         if (share > largest_share) {
             largest_share = share;

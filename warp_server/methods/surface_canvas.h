@@ -35,16 +35,9 @@ public:
     [[nodiscard]] SurfaceSkips& skips() { return skips_; }
     [[nodiscard]] const SurfaceSkips& skips() const { return skips_; }
 
-    /// Makes room for `count` more fragments.
-    void reserve_fragments(std::size_t count) {
-        if (fragments_.size() < fragment_count_ + count) fragments_.resize(2 * (fragment_count_ + count));
-    }
-
-    /// A surface that covers a share of pixel `index`, which must be in the band. There must be room.
-    /// @param coverage  in (0, 1]
-    /// @param linear    its colour in linear light, 0 to kLinearOne
-    void put_fragment(std::size_t index, float depth, float coverage, const glm::vec3& linear) {
-        fragments_[fragment_count_++] = {linear, depth, coverage, -1, static_cast<std::uint32_t>(index)};
+    /// A surface that covers a share of pixel `index`, which must be in the band.
+    void put_fragment(std::size_t index, const SurfaceFragment& fragment) {
+        fragments_.put(index - first_index_, fragment);
     }
 
     /// One layer of several is drawn. Its fragments in one pixel are parts of one place, so they are put together now:
@@ -59,35 +52,42 @@ private:
     static constexpr int kNothingByte = 0xBF;  // four of them make the float -1.498: farther than every depth
 
     static constexpr std::size_t kFewFragments = 8;
-    // Fragments are sorted by stretches of this many pixels, whose lists and picture fit a cache.
-    static constexpr unsigned kStretchBits = 10;
-    static constexpr std::size_t kStretch = std::size_t{1} << kStretchBits;
+
+    // Pixels of a stretch that have fragments.
+    struct Stretch {
+        std::size_t first_pixel;                                      // number in the picture
+        std::array<std::int32_t, SurfaceFragments::kStretch> newest;  // of each pixel: a fragment, or -1
+        std::vector<std::uint32_t> touched;
+    };
+    struct WaitingFragment {
+        std::size_t pixel;  // number in the picture
+        SurfaceFragment fragment;
+    };
 
     // What becomes of fragments that cover too little of a pixel to be shown.
     enum class Uncovered { drop, wait };
 
     [[nodiscard]] std::size_t pixel_count() const;
     void composite_fragments_so_far(Uncovered uncovered);
-    void sort_fragments(std::size_t pixel_count);
-    void composite_stretch(std::size_t stretch, Uncovered uncovered);
-    void put_off_uncovered(std::size_t first);
+    void list_fragments(std::size_t number, Stretch& stretch);
+    void composite_stretch(Stretch& stretch, Uncovered uncovered);
+    void put_off_uncovered(Stretch& stretch);
     // One pixel with any number of fragments, as composite_fragments has it.
-    void composite(std::size_t pixel);
+    void composite(std::size_t pixel, std::int32_t newest);
     // The same with the pixel's fragments, nearest first.
-    void composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted, float covered);
+    void composite(std::size_t pixel, std::span<const SurfaceFragment* const> sorted);
     [[nodiscard]] std::size_t count_fragments(std::int32_t newest, float opaque_depth) const;
+    [[nodiscard]] const SurfaceFragment& fragment(std::int32_t index) const {
+        return fragments_.all()[static_cast<std::size_t>(index)];
+    }
 
     DisplayFrame* frame_ = nullptr;
     RowRange band_;
     SurfaceSkips skips_;
-    std::size_t first_index_ = 0;             // of the band's first pixel
-    std::vector<SurfaceFragment> fragments_;  // as they came: the first fragment_count_ of them
-    std::size_t fragment_count_ = 0;
-    std::vector<SurfaceFragment> waiting_;         // put off until finish()
-    std::vector<SurfaceFragment> sorted_;          // by stretches, in the order they came within each
-    std::vector<std::uint32_t> stretch_begin_;     // of each stretch its first in sorted_, and one more
-    std::array<std::int32_t, kStretch> newest_{};  // of each pixel of a stretch: its newest fragment, or -1
-    std::vector<std::uint32_t> touched_;           // pixels of a stretch that have fragments
+    std::size_t first_index_ = 0;  // of the band's first pixel
+    SurfaceFragments fragments_;
+    std::array<Stretch, 2> stretches_;      // in turns
+    std::vector<WaitingFragment> waiting_;  // put off until finish()
     std::vector<const SurfaceFragment*> many_sorted_;
     std::vector<PartlyCovered> partly_covered_;
 };

@@ -19,33 +19,51 @@ namespace lw::HWY_NAMESPACE {
 namespace {
 
 constexpr float kNoDepth = -2.0F;  // behind everything
-constexpr int kFieldsPerFragment = sizeof(SurfaceFragment) / sizeof(float);
+constexpr int kWordsPerFragment = sizeof(SurfaceFragment) / sizeof(float);
 
-// One fragment of each of Lanes(DF) pixels.
+// One fragment of each of Lanes(DF) pixels; the words of SurfaceFragment.
 struct Fragments {
-    VF red, green, blue, depth, coverage;
+    VF depth;
+    hn::VFromD<DI> coverage_red, green_blue;
+
+    // Of a word's two fields.
+    [[nodiscard]] static HWY_INLINE VF first(hn::VFromD<DI> word) {
+        return hn::ConvertTo(DF{}, hn::And(word, hn::Set(DI{}, 0xFFFF)));
+    }
+    [[nodiscard]] static HWY_INLINE VF second(hn::VFromD<DI> word) {
+        return hn::ConvertTo(DF{}, hn::ShiftRight<16>(word));
+    }
+
+    [[nodiscard]] HWY_INLINE VF coverage() const {
+        return hn::Mul(second(coverage_red), hn::Set(DF{}, 1.0F / static_cast<float>(kLinearOne)));
+    }
+    [[nodiscard]] HWY_INLINE VF red() const { return first(coverage_red); }
+    [[nodiscard]] HWY_INLINE VF green() const { return second(green_blue); }
+    [[nodiscard]] HWY_INLINE VF blue() const { return first(green_blue); }
 };
 
+// Nearer first; the rest only makes the order total.
 HWY_INLINE hn::Mask<DF> goes_before(const Fragments& a, const Fragments& b) {
-    // In the order of their importance: nearer first; the rest only makes the order total.
-    const auto then = [](VF x, VF y, hn::Mask<DF> rest) { return hn::Or(hn::Gt(x, y), hn::And(hn::Eq(x, y), rest)); };
-    const auto by_blue = hn::Gt(a.blue, b.blue);
-    const auto by_colour = then(a.red, b.red, then(a.green, b.green, by_blue));
-    return then(a.depth, b.depth, then(a.coverage, b.coverage, by_colour));
+    const auto then = [](auto greater, auto equal, hn::Mask<DF> rest) {
+        return hn::Or(hn::RebindMask(DF{}, greater), hn::And(hn::RebindMask(DF{}, equal), rest));
+    };
+    const auto by_green = hn::RebindMask(DF{}, hn::Gt(a.green_blue, b.green_blue));
+    const auto by_coverage =
+        then(hn::Gt(a.coverage_red, b.coverage_red), hn::Eq(a.coverage_red, b.coverage_red), by_green);
+    return then(hn::Gt(a.depth, b.depth), hn::Eq(a.depth, b.depth), by_coverage);
 }
 
 HWY_INLINE void order(Fragments& a, Fragments& b) {
     const auto swapped = goes_before(b, a);
-    const auto exchange = [&](VF& x, VF& y) {
-        const VF first = hn::IfThenElse(swapped, y, x);
-        y = hn::IfThenElse(swapped, x, y);
+    const auto exchange = [&](auto& x, auto& y, auto d) {
+        const auto mask = hn::RebindMask(d, swapped);
+        const auto first = hn::IfThenElse(mask, y, x);
+        y = hn::IfThenElse(mask, x, y);
         x = first;
     };
-    exchange(a.red, b.red);
-    exchange(a.green, b.green);
-    exchange(a.blue, b.blue);
-    exchange(a.depth, b.depth);
-    exchange(a.coverage, b.coverage);
+    exchange(a.depth, b.depth, DF{});
+    exchange(a.coverage_red, b.coverage_red, DI{});
+    exchange(a.green_blue, b.green_blue, DI{});
 }
 
 HWY_INLINE void sort(Fragments (&list)[kMostFragmentsAtOnce], int length) {
@@ -77,8 +95,7 @@ public:
         Fragments list[kMostFragmentsAtOnce];
         VF kept = hn::Zero(DF{});  // number of fragments that are not behind what is opaque
         int length = 0;
-        const auto none =
-            Fragments{hn::Zero(DF{}), hn::Zero(DF{}), hn::Zero(DF{}), hn::Set(DF{}, kNoDepth), hn::Zero(DF{})};
+        const auto none = Fragments{hn::Set(DF{}, kNoDepth), hn::Zero(DI{}), hn::Zero(DI{})};
         std::fill(std::begin(list), std::end(list), none);
         while (length < kMostFragmentsAtOnce) {
             const auto valid = hn::Gt(at, hn::Set(DI{}, -1));
@@ -102,25 +119,26 @@ private:
         }
     }
 
-    [[nodiscard]] HWY_INLINE hn::VFromD<DI> field(hn::VFromD<DI> at, int index) const {
-        const auto fields = hn::Mul(hn::Max(at, hn::Zero(DI{})), hn::Set(DI{}, kFieldsPerFragment));
-        return hn::Add(fields, hn::Set(DI{}, index));
+    [[nodiscard]] HWY_INLINE hn::VFromD<DI> word(hn::VFromD<DI> at, int index) const {
+        const auto words = hn::Mul(hn::Max(at, hn::Zero(DI{})), hn::Set(DI{}, kWordsPerFragment));
+        return hn::Add(words, hn::Set(DI{}, index));
     }
 
     [[nodiscard]] HWY_INLINE Fragments gather(hn::VFromD<DI> at, hn::Mask<DF> valid, VF opaque_depth, VF& kept) const {
-        const auto* values = reinterpret_cast<const float*>(lists_.fragments.data());
-        const auto value = [&](int index) { return hn::GatherIndex(DF{}, values, field(at, index)); };
-        const VF depth = value(3);
+        const auto* depths = reinterpret_cast<const float*>(lists_.fragments.data());
+        const auto* words = reinterpret_cast<const std::int32_t*>(lists_.fragments.data());
+        const VF depth = hn::GatherIndex(DF{}, depths, word(at, 0));
         const auto keep = hn::AndNot(hn::Lt(depth, opaque_depth), valid);
         kept = hn::Add(kept, hn::IfThenElseZero(keep, hn::Set(DF{}, 1.0F)));
-        const auto kept_value = [&](int index) { return hn::IfThenElseZero(keep, value(index)); };
-        return {kept_value(0), kept_value(1), kept_value(2), hn::IfThenElse(keep, depth, hn::Set(DF{}, kNoDepth)),
-                kept_value(4)};
+        const auto kept_word = [&](int index) {
+            return hn::IfThenElseZero(hn::RebindMask(DI{}, keep), hn::GatherIndex(DI{}, words, word(at, index)));
+        };
+        return {hn::IfThenElse(keep, depth, hn::Set(DF{}, kNoDepth)), kept_word(1), kept_word(2)};
     }
 
     [[nodiscard]] HWY_INLINE hn::VFromD<DI> next(hn::VFromD<DI> at, hn::Mask<DI> valid) const {
-        const auto* values = reinterpret_cast<const std::int32_t*>(lists_.fragments.data());
-        return hn::IfThenElse(valid, hn::GatherIndex(DI{}, values, field(at, 5)), hn::Set(DI{}, -1));
+        const auto* words = reinterpret_cast<const std::int32_t*>(lists_.fragments.data());
+        return hn::IfThenElse(valid, hn::GatherIndex(DI{}, words, word(at, 3)), hn::Set(DI{}, -1));
     }
 
     HWY_INLINE void compose(const Fragments (&list)[kMostFragmentsAtOnce], int length, VF kept, VF opaque_depth,
@@ -135,11 +153,12 @@ private:
         for (int i = 0; i < length; ++i) {
             const Fragments& fragment = list[i];
             const auto is_last = hn::AndNot(has_opaque, hn::Eq(kept, hn::Set(DF{}, static_cast<float>(i + 1))));
-            const VF share = hn::IfThenElse(is_last, left, hn::Mul(left, fragment.coverage));
-            covered = hn::Add(covered, fragment.coverage);
-            red = hn::Add(red, hn::Mul(share, fragment.red));
-            green = hn::Add(green, hn::Mul(share, fragment.green));
-            blue = hn::Add(blue, hn::Mul(share, fragment.blue));
+            const VF coverage = fragment.coverage();
+            const VF share = hn::IfThenElse(is_last, left, hn::Mul(left, coverage));
+            covered = hn::Add(covered, coverage);
+            red = hn::Add(red, hn::Mul(share, fragment.red()));
+            green = hn::Add(green, hn::Mul(share, fragment.green()));
+            blue = hn::Add(blue, hn::Mul(share, fragment.blue()));
             left = hn::Sub(left, share);
             const auto larger = hn::Gt(share, largest_share);
             largest_share = hn::IfThenElse(larger, share, largest_share);

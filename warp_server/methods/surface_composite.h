@@ -4,28 +4,19 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <glm/glm.hpp>
 #include <span>
 #include <vector>
 
 #include "core/image.h"
+#include "warp_server/methods/surface_fragments.h"
 #include "warp_server/warp_method.h"
 
 namespace lw {
 
-/// A surface that covers a share of a pixel.
-struct alignas(32) SurfaceFragment {
-    glm::vec3 linear;  ///< 0 to kLinearOne
-    float depth;
-    float coverage;       ///< in (0, 1]
-    std::int32_t next;    ///< index of the pixel's fragment before, or -1
-    std::uint32_t pixel;  ///< number in the picture
-};
-
 /// Lists of fragments per pixel, and what is behind them.
 struct FragmentLists {
     std::span<const SurfaceFragment> fragments;
-    std::int32_t* newest;  ///< of each pixel: its newest fragment; reset to -1 when the pixel is done
+    std::int32_t* newest;  ///< of each pixel: its first fragment, whose link leads on; reset to -1 when it is done
     float* depths;         ///< of what is opaque, negative where nothing is
     Rgba8* colours;
     std::uint32_t first_pixel;                   ///< number in the picture of the first of these

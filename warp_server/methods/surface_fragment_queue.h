@@ -68,7 +68,6 @@ public:
     HWY_NOINLINE void flush() {
         hn::StoreU(hn::Zero(DI{}), DI{}, x_ + count_);  // what a store left beyond the end may be no cell at all
         hn::StoreU(hn::Zero(DI{}), DI{}, y_ + count_);
-        canvas_.reserve_fragments(count_);
         for (std::size_t i = 0; i < count_; i += hn::Lanes(DF{})) {
             if (has_lattices()) {
                 flush_lattices(i);
@@ -165,19 +164,23 @@ private:
     }
 
     HWY_INLINE void put(std::size_t i, VF coverage, VF red_15, VF green_15, VF blue_15) {
-        HWY_ALIGN float covered[kMaxLanes];
-        HWY_ALIGN float red[kMaxLanes];
-        HWY_ALIGN float green[kMaxLanes];
-        HWY_ALIGN float blue[kMaxLanes];
-        hn::Store(coverage, DF{}, covered);
-        hn::Store(red_15, DF{}, red);
-        hn::Store(green_15, DF{}, green);
-        hn::Store(blue_15, DF{}, blue);
+        const auto whole = [](VF value) {
+            const VF most = hn::Set(DF{}, static_cast<float>(kLinearOne));
+            const VF rounded = hn::Add(hn::Min(value, most), hn::Set(DF{}, 0.5F));
+            return hn::BitCast(DU{}, hn::ConvertTo(DI{}, rounded));
+        };
+        const auto word = [](auto first, auto second) { return hn::Or(first, hn::ShiftLeft<16>(second)); };
+        const auto coverage_15 = whole(hn::Mul(coverage, hn::Set(DF{}, static_cast<float>(kLinearOne))));
+        HWY_ALIGN std::uint32_t words[4 * kMaxLanes];
+        hn::StoreInterleaved4(hn::BitCast(DU{}, hn::Load(DF{}, depth_ + i)), word(whole(red_15), coverage_15),
+                              word(whole(blue_15), whole(green_15)), hn::Zero(DU{}), DU{}, words);
         const std::size_t end = std::min(hn::Lanes(DF{}), count_ - i);
-        for (std::size_t lane = 0; lane < end; ++lane) {
-            const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
-            if (covered[lane] < kSmallestCoverage) continue;
-            canvas_.put_fragment(pixel, depth_[i + lane], covered[lane], {red[lane], green[lane], blue[lane]});
+        std::uint32_t bits = bits_of(DF{}, hn::Ge(coverage, hn::Set(DF{}, kSmallestCoverage)));
+        for (bits &= (1U << end) - 1U; bits != 0; bits &= bits - 1) {
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
+            SurfaceFragment fragment;
+            std::memcpy(&fragment, words + 4 * lane, sizeof(fragment));
+            canvas_.put_fragment(static_cast<std::size_t>(pixel_[i + lane]), fragment);
         }
     }
 

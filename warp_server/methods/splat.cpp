@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "core/stopwatch.h"
 #include "core/task_pool.h"
 #include "warp_server/methods/factories.h"
 #include "warp_server/methods/homography_resample.h"
@@ -43,7 +44,9 @@ public:
         input_ = {&pixels, &tiles, &matrices_};
         background_ = {background_source_from_target(layer.camera, target.camera)};
         out_ = &out;
+        part_ms_.resize(parts_.all().size());
         pool_.run(static_cast<int>(parts_.all().size()), draw_part_);
+        parts_.learn(part_ms_);
         count_bad_pixels(tiles);
     }
 
@@ -103,9 +106,12 @@ private:
     SplatInput input_;
     BackgroundLookup background_;
     DisplayFrame* out_ = nullptr;
+    std::vector<double> part_ms_;
     // Kept, because making a function object may allocate.
     TaskPool::Work draw_part_ = [this](int part, int worker) {
+        const Stopwatch drawing;
         draw_part(parts_.all()[static_cast<std::size_t>(part)], painters_[static_cast<std::size_t>(worker)]);
+        part_ms_[static_cast<std::size_t>(part)] = drawing.ms();
     };
 };
 

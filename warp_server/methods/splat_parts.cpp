@@ -28,12 +28,9 @@ RowRange columns_of_panel(int width, int index, int count) {
     return {end_of(index), end_of(index + 1)};
 }
 
-// Every cut between rows has tiles on both sides, which are placed twice: a fortieth of the work of a still head. It
-// pays only where the cost of parts is hard to tell beforehand.
-int parts_for(int panels, int threads) {
-    if (threads == 1) return panels;
-    return panels == 1 ? threads : 2 * threads;
-}
+// Of several panels. Every cut between rows has tiles on both sides, which are placed twice: a fortieth of the work of
+// a still head. It pays where the cost of parts is hard to tell beforehand.
+int parts_for(int panels, int threads) { return threads == 1 ? panels : std::max(panels, 2 * threads); }
 
 }  // namespace
 
@@ -71,17 +68,35 @@ void SplatPart::build(const SplatReach& reach, const PixelRect& rect) {
 }
 
 void SplatParts::build(const SplatReach& reach, const SplatTiles& tiles, int threads) {
+    const int width = reach.target_size_px().x;
+    const int panels = panels_for(reach);
+    rects_.clear();
+    bands_.clear();
+    if (panels == 1) {
+        balance(costs_of_rows(reach, tiles, {0, width}), width, threads);
+        return;
+    }
     unordered_.clear();
     costs_.clear();
-    const int panels = panels_for(reach);
-    const int parts = std::max(panels, parts_for(panels, threads));
+    const int parts = parts_for(panels, threads);
     for (int i = 0; i < panels; ++i) {
-        const RowRange columns = columns_of_panel(reach.target_size_px().x, i, panels);
-        add_panel(reach, tiles, columns, (parts + panels - 1) / panels);
+        add_panel(reach, tiles, columns_of_panel(width, i, panels), (parts + panels - 1) / panels);
     }
     std::ranges::sort(costs_, {}, [](const Cost& cost) { return -cost.work; });
-    rects_.clear();
     for (const Cost& cost : costs_) rects_.push_back(unordered_[cost.rect]);
+}
+
+// What the estimate has wrong for one half of a picture it has wrong in the next.
+void SplatParts::balance(std::span<const float> cost_until, int width, int threads) {
+    bands_.resize(static_cast<std::size_t>(threads));
+    balance_.cut(cost_until, bands_);
+    for (const RowRange& rows : bands_) {
+        if (rows.begin < rows.end) rects_.push_back({{0, rows.begin}, {width, rows.end}});
+    }
+}
+
+void SplatParts::learn(std::span<const double> times) {
+    if (!bands_.empty() && times.size() == bands_.size()) balance_.learn(times);
 }
 
 int SplatParts::panels_for(const SplatReach& reach) {
@@ -101,7 +116,7 @@ int SplatParts::panels_for(const SplatReach& reach) {
 }
 
 // The points of a tile are spread over the rows that it can reach.
-void SplatParts::add_panel(const SplatReach& reach, const SplatTiles& tiles, RowRange columns, int count) {
+std::span<const float> SplatParts::costs_of_rows(const SplatReach& reach, const SplatTiles& tiles, RowRange columns) {
     const int height = reach.target_size_px().y;
     const PixelRect panel{{columns.begin, 0}, {columns.end, height}};
     row_costs_.begin(height, kCostOfPixel * static_cast<float>(columns.end - columns.begin));
@@ -113,8 +128,11 @@ void SplatParts::add_panel(const SplatReach& reach, const SplatTiles& tiles, Row
                            kCostOfPoint * static_cast<float>(tiles.points_of(band, tile)));
         }
     }
-    const std::span<const float> cost = row_costs_.until();
+    return row_costs_.until();
+}
 
+void SplatParts::add_panel(const SplatReach& reach, const SplatTiles& tiles, RowRange columns, int count) {
+    const std::span<const float> cost = costs_of_rows(reach, tiles, columns);
     for (int i = 0; i < count; ++i) {
         const RowRange rows = band_of_cost(cost, i, count);
         if (rows.begin >= rows.end) continue;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "warp_server/methods/band_balance.h"
 #include "warp_server/methods/row_costs.h"
 #include "warp_server/methods/splat_reach.h"
 #include "warp_server/methods/splat_tiles.h"
@@ -50,16 +51,22 @@ private:
 /// degrees takes four fifths of the time of one panel, small turns the same.
 ///
 /// Rows: for several threads, panels are cut where half of their work is done, and so on. Threads take parts as they
-/// come free.
+/// come free. A single panel has a part for each thread, whose shares of the work are learnt.
 class SplatParts {
 public:
     void build(const SplatReach& reach, const SplatTiles& tiles, int threads);
 
     [[nodiscard]] std::span<const PixelRect> all() const { return rects_; }
 
+    /// What each of all() took, in any unit.
+    void learn(std::span<const double> times);
+
 private:
     [[nodiscard]] int panels_for(const SplatReach& reach);
     void add_panel(const SplatReach& reach, const SplatTiles& tiles, RowRange columns, int count);
+    [[nodiscard]] std::span<const float> costs_of_rows(const SplatReach& reach, const SplatTiles& tiles,
+                                                       RowRange columns);
+    void balance(std::span<const float> cost_until, int width, int threads);
 
     struct Cost {
         float work;
@@ -70,6 +77,8 @@ private:
     std::vector<PixelRect> unordered_;
     std::vector<Cost> costs_;
     RowCosts row_costs_;  // of a panel
+    BandBalance balance_;
+    std::vector<RowRange> bands_;  // of a single panel
 };
 
 }  // namespace lw

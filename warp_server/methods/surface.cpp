@@ -49,7 +49,10 @@ class BandPainter {
 public:
     // `layers` outlives the steps; at least one.
     void begin(std::span<const PaintedLayer> layers, RowRange band, StackBase base, DisplayFrame& out) {
-        canvas_.begin(out, band, base);
+        out_ = &out;
+        band_ = band;
+        base_ = base;
+        is_begun_ = false;
         layers_ = layers;
         next_layer_ = 0;
         next_region_ = 0;
@@ -63,6 +66,9 @@ public:
     bool step() {
         if (next_layer_ == layers_.size()) return false;
         const Stopwatch drawing;
+        // By the thread that draws the band: it empties it.
+        if (!is_begun_) canvas_.begin(*out_, band_, base_);
+        is_begun_ = true;
         draw_next();
         drawing_ms_ += drawing.ms();
         return true;
@@ -162,6 +168,10 @@ private:
         }
     }
 
+    DisplayFrame* out_ = nullptr;
+    RowRange band_;
+    StackBase base_ = StackBase::nothing;
+    bool is_begun_ = false;
     SurfaceCanvas canvas_;
     std::span<const PaintedLayer> layers_;
     std::size_t next_layer_ = 0;

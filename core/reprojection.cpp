@@ -5,6 +5,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "core/placement_check.h"
+#include "core/task_pool.h"
 
 namespace lw {
 namespace {
@@ -13,6 +14,8 @@ using EyeFromPx = Transform<SourceEye, SourcePx>;
 
 // Sums of four terms with pixel coordinates up to 1e5 stay below the largest float, 3e38.
 constexpr double kLargestEntry = 1e30;
+
+constexpr std::size_t kIdsPerTask = 64;  // some microseconds
 
 bool fits_a_float(const glm::dmat4& m) {
     for (int column = 0; column < 4; ++column) {
@@ -132,24 +135,31 @@ std::optional<ReprojectedSample> reproject(const Transform<TargetPx, SourcePx>& 
 }
 
 void ReprojectionTable::build(const Camera& source, const Camera& target, std::span<const ObjectTransform> at_source,
-                              std::span<const ObjectTransform> at_target) {
+                              std::span<const ObjectTransform> at_target, TaskPool* threads) {
     ObjectId largest = 0;
     for (const ObjectTransform& object : at_source) largest = std::max(largest, object.id);
+    const auto list = [&](std::span<const ObjectTransform> objects, std::vector<const glm::dmat4*>& by_id) {
+        by_id.assign(std::size_t{largest} + 1, nullptr);
+        for (const ObjectTransform& object : objects) {
+            if (object.id <= largest) by_id[object.id] = &object.world_from_object;
+        }
+    };
+    list(at_source, source_by_id_);
+    list(at_target, target_by_id_);
 
-    target_by_id_.assign(std::size_t{largest} + 1, nullptr);
-    for (const ObjectTransform& object : at_target) {
-        const bool usable = object.id <= largest && is_placement(object.world_from_object);
-        if (usable) target_by_id_[object.id] = &object.world_from_object;
-    }
-
-    entries_.assign(std::size_t{largest} + 1, Entry{});
+    entries_.resize(std::size_t{largest} + 1);
     const ViewChange change{source, target};
-    for (const ObjectTransform& object : at_source) {
-        const glm::dmat4& at_source_time = object.world_from_object;
-        const glm::dmat4* at_photon = target_by_id_[object.id];
-        const auto matrix = change.of_mover(at_source_time, at_photon != nullptr ? *at_photon : at_source_time);
-        if (matrix) entries_[object.id] = {*matrix, true};
-    }
+    for_ranges(threads, entries_.size(), kIdsPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t id = begin; id < end; ++id) {
+            Entry& entry = entries_[id];
+            entry.valid = false;
+            if (source_by_id_[id] == nullptr) continue;
+            const glm::dmat4* at_photon = target_by_id_[id];
+            const bool holds = at_photon == nullptr || !is_placement(*at_photon);
+            const auto matrix = change.of_mover(*source_by_id_[id], holds ? *source_by_id_[id] : *at_photon);
+            if (matrix) entry = {*matrix, true};
+        }
+    });
     entries_[0] = {change.of_static(), true};
 }
 

@@ -12,6 +12,8 @@
 
 namespace lw {
 
+class TaskPool;
+
 /// One matrix per object (seed document 004, p. 57):
 ///   target_px_from_target_clip * target_clip_from_target_eye * target_eye_from_world(photon)
 ///   * world_from_object(photon) * object_from_world(source) * world_from_source_eye * source_eye_from_source_px.
@@ -45,8 +47,9 @@ public:
     /// `at_source` and `at_target` may be in any order. A mover without a (usable) target transform holds its source
     /// one; an id without a (usable) source transform has no matrix. Object 0 always has one. Reuses its memory: no
     /// allocation once the largest id was seen. One thread at a time.
+    /// With `threads` the ids are shared out.
     void build(const Camera& source, const Camera& target, std::span<const ObjectTransform> at_source,
-               std::span<const ObjectTransform> at_target);
+               std::span<const ObjectTransform> at_target, TaskPool* threads = nullptr);
 
     /// Largest id with an entry, plus one; at least 1 after build().
     [[nodiscard]] std::size_t size() const { return entries_.size(); }
@@ -62,6 +65,7 @@ private:
         bool valid = false;
     };
     std::vector<Entry> entries_;
+    std::vector<const glm::dmat4*> source_by_id_;
     std::vector<const glm::dmat4*> target_by_id_;
 };
 

@@ -1,8 +1,10 @@
 #pragma once
 /// A few threads that share the tasks of one stage of a frame, and wait for the next stage without sleeping in between.
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <mutex>
@@ -61,5 +63,20 @@ private:
     std::condition_variable wake_;
     std::condition_variable done_;
 };
+
+/// Calls `work(begin, end)` for pieces of [0, size) of `piece` each, on `threads` or, without any, on the caller's.
+/// Allocates nothing.
+template <class OfRange>
+void for_ranges(TaskPool* threads, std::size_t size, std::size_t piece, const OfRange& work) {
+    if (threads == nullptr || threads->threads() == 1) {
+        work(std::size_t{0}, size);
+        return;
+    }
+    const auto of_task = [&](int task, int /*worker*/) {
+        const std::size_t begin = static_cast<std::size_t>(task) * piece;
+        work(begin, std::min(begin + piece, size));
+    };
+    threads->run(static_cast<int>((size + piece - 1) / piece), std::ref(of_task));
+}
 
 }  // namespace lw

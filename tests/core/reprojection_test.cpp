@@ -4,6 +4,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "core/task_pool.h"
 
 namespace lw {
 namespace {
@@ -180,6 +183,32 @@ TEST(ReprojectionTable, KnowsIdsInAnyOrderAndMissingOnes) {
     EXPECT_EQ(table.find(5), nullptr) << "singular";
     EXPECT_EQ(table.find(9), nullptr) << "not drawn in the source";
     EXPECT_EQ(table.find(65535), nullptr);
+}
+
+TEST(ReprojectionTable, IsTheSameOnSeveralThreads) {
+    const Camera source = camera_at({{0.0, 1.6, 0.0}, {1, 0, 0, 0}});
+    const Camera target = camera_at({{0.1, 1.6, -0.2}, {1, 0, 0, 0}});
+    std::vector<ObjectTransform> at_source;
+    std::vector<ObjectTransform> at_target;
+    for (ObjectId id = 300; id > 0; --id) {
+        const glm::dvec3 place{0.1 * id, 0.0, -3.0};
+        at_source.push_back({id, matrix_of(Pose{place})});
+        if (id % 3 != 0) at_target.push_back({id, matrix_of(Pose{place + glm::dvec3{0.0, 0.2, 0.0}})});
+        if (id % 5 == 0) at_source.back().world_from_object[0][0] = std::numeric_limits<double>::quiet_NaN();
+    }
+    ReprojectionTable alone;
+    ReprojectionTable shared;
+    TaskPool threads{3};
+    alone.build(source, target, at_source, at_target);
+    shared.build(source, target, at_source, at_target, &threads);
+    ASSERT_EQ(shared.size(), alone.size());
+    for (std::size_t id = 0; id < alone.size(); ++id) {
+        const auto* expected = alone.find(static_cast<ObjectId>(id));
+        const auto* found = shared.find(static_cast<ObjectId>(id));
+        ASSERT_EQ(found == nullptr, expected == nullptr) << "object " << id;
+        if (found == nullptr) continue;
+        EXPECT_EQ(found->matrix, expected->matrix) << "object " << id;
+    }
 }
 
 TEST(ReprojectionTable, ForgetsTheLastLayer) {

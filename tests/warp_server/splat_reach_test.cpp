@@ -245,6 +245,21 @@ TEST(SplatParts, CoverEveryPixelOnce) {
     }
 }
 
+TEST(SplatParts, WhoTookLongerGetsLess) {
+    const AnalyticScene scene = AnalyticScene::street();
+    const Camera source = street_camera({512, 512});
+    const Layer layer = scene.draw(source, 0.0);
+    const Built built = reach_of(layer, {source, scene.movers(0.0)});
+    SplatParts parts;
+    parts.build(built.reach, *built.tiles, 2);
+    ASSERT_EQ(parts.all().size(), 2U);
+    const int border = parts.all()[0].end_px.y;
+    parts.learn(std::vector<double>{1.3, 0.7});
+    parts.build(built.reach, *built.tiles, 2);
+    ASSERT_EQ(parts.all().size(), 2U);
+    EXPECT_LT(parts.all()[0].end_px.y, border);
+}
+
 TEST(SplatReach, FewRowsAreInFlightWhileTheHeadIsStill) {
     const AnalyticScene scene = AnalyticScene::street();
     const Camera source = street_camera({512, 512});

@@ -41,7 +41,7 @@ public:
     void warp(const Layer& layer, const WarpTarget& target, DisplayFrame& out) override {
         std::shared_ptr<const PreparedLayer> own;
         const auto& prepared = prepared_or_made<PreparedInverse>(layer, own);
-        matrices_.build(layer, target);
+        matrices_.build(layer, target, 1.0F, &pool_);
         counters_ = bad_pixels(prepared.id_counts, matrices_);
         out.resize(target.camera.size_px);
         input_ = {&checked_cpu_pixels(layer), &prepared.linear, &matrices_,

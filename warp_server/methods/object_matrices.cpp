@@ -6,12 +6,15 @@
 #include <optional>
 
 #include "core/check.h"
+#include "core/task_pool.h"
 
 namespace lw {
 namespace {
 
 // Below what float can hold of a pixel coordinate (1024 px: 6e-5) and above what composing in double leaves (1e-12).
 constexpr double kStillPx = 1e-6;
+
+constexpr std::size_t kIdsPerTask = 64;  // some microseconds
 
 bool is_identity(const glm::dmat4& m, glm::ivec2 source_size_px) {
     const glm::dvec4 reach{source_size_px.x, source_size_px.y, 1.0, 1.0};  // largest x_px, y_px, 1, depth
@@ -84,25 +87,28 @@ PixelMatrix pixel_matrix_of(const Transform<TargetPx, SourcePx>& target_px_from_
     return {rounded(m[0]), rounded(m[1]), rounded(m[2]), rounded(m[3]), static_cast<float>(m[3].z), 0.0F, true, false};
 }
 
-void ObjectMatrices::build(const Layer& layer, const WarpTarget& target, float depth_share) {
+void ObjectMatrices::build(const Layer& layer, const WarpTarget& target, float depth_share, TaskPool* threads) {
     if (layer.content.static_only) {
         table_.build(layer.camera, target.camera, {}, {});
     } else {
-        table_.build(layer.camera, target.camera, layer.movers, target.movers);
+        table_.build(layer.camera, target.camera, layer.movers, target.movers, threads);
     }
-    matrices_.assign(table_.size(), PixelMatrix{});
-    all_identity_ = layer.camera.size_px == target.camera.size_px;
+    matrices_.resize(table_.size());
     const auto* pixels = std::get_if<CpuPixels>(&layer.pixels);
     std::optional<Motion> motion;
     if (pixels != nullptr && pixels->alpha_is_share) motion.emplace(layer.camera, target.camera);
-    for (std::size_t id = 0; id < table_.size(); ++id) {
-        const Transform<TargetPx, SourcePx>* exact = table_.find(static_cast<ObjectId>(id));
-        if (exact == nullptr) continue;
-        matrices_[id] = pixel_matrix_of(*exact, layer.camera.size_px);
-        matrices_[id].depth_scale *= depth_share;
-        if (motion) matrices_[id].moved_px = motion->of(*exact);
-        all_identity_ = all_identity_ && matrices_[id].identity;
-    }
+    for_ranges(threads, matrices_.size(), kIdsPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t id = begin; id < end; ++id) {
+            matrices_[id].valid = false;
+            const Transform<TargetPx, SourcePx>* exact = table_.find(static_cast<ObjectId>(id));
+            if (exact == nullptr) continue;
+            matrices_[id] = pixel_matrix_of(*exact, layer.camera.size_px);
+            matrices_[id].depth_scale *= depth_share;
+            if (motion) matrices_[id].moved_px = motion->of(*exact);
+        }
+    });
+    const auto stays = [](const PixelMatrix& matrix) { return !matrix.valid || matrix.identity; };
+    all_identity_ = layer.camera.size_px == target.camera.size_px && std::ranges::all_of(matrices_, stays);
 }
 
 const CpuPixels& checked_cpu_pixels(const Layer& layer) {

@@ -40,7 +40,8 @@ struct PixelMatrix {
 class ObjectMatrices {
 public:
     /// @param depth_share  target depths are multiplied by it (StackedLayer)
-    void build(const Layer& layer, const WarpTarget& target, float depth_share = 1.0F);
+    /// @param threads      share the work, if there are any
+    void build(const Layer& layer, const WarpTarget& target, float depth_share = 1.0F, TaskPool* threads = nullptr);
 
     /// At least 1: object 0 (sky and static world) is always valid.
     [[nodiscard]] std::size_t size() const { return matrices_.size(); }

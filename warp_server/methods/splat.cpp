@@ -36,8 +36,8 @@ public:
         const CpuPixels& pixels = checked_cpu_pixels(layer);
         std::shared_ptr<const PreparedLayer> own;
         const auto& tiles = prepared_or_made<SplatTiles>(layer, own);
-        matrices_.build(layer, target);
-        reach_.build(tiles, matrices_, target.camera.size_px);
+        matrices_.build(layer, target, 1.0F, &pool_);
+        reach_.build(tiles, matrices_, target.camera.size_px, &pool_);
         parts_.build(reach_, tiles, pool_.threads());
         out.resize(target.camera.size_px);
         for (Painter& painter : painters_) painter.keys.reserve(target.camera.size_px);

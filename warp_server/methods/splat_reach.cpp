@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/task_pool.h"
 #include "warp_server/methods/row_range.h"
 #include "warp_server/methods/splat_footprint.h"
 
@@ -16,6 +17,8 @@ constexpr float kMargin_px = kLargestHalfExtentPx + 1.0F;
 constexpr float kLeastPartOfW = 1e-3F;
 // In the target; 1 is the near plane.
 constexpr float kGreatestDepth = 0.999F;
+
+constexpr std::size_t kBandsPerTask = 4;  // some microseconds
 
 struct Box {
     float begin_x, end_x, begin_y, end_y, least_depth, greatest_depth;
@@ -107,37 +110,42 @@ PixelRect joined(const PixelRect& a, const PixelRect& b) {
 
 }  // namespace
 
-void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, glm::ivec2 target_size_px) {
+void SplatReach::build(const SplatTiles& tiles, const ObjectMatrices& matrices, glm::ivec2 target_size_px,
+                       TaskPool* threads) {
     target_size_px_ = target_size_px;
     bands_ = tiles.bands();
     tiles_per_band_ = tiles.tiles_per_band();
     rects_.assign(index(bands_, 0), PixelRect{});
     cut_.assign(rects_.size(), 0);
-    for (int band = 0; band < bands_; ++band) {
-        const int y = band * kBandHeight_px;
-        const int end_y = std::min(y + kBandHeight_px, tiles.size_px.y);
-        const auto b = static_cast<std::size_t>(band);
-        for (int i = tiles.first_patch[b]; i < tiles.first_patch[b + 1]; ++i) {
-            const TilePatch& patch = tiles.patches[static_cast<std::size_t>(i)];
-            const PixelMatrix* matrix = matrices.find(patch.object);
-            if (matrix == nullptr) continue;
-            const int x = patch.tile * kTileWidth_px;
-            const int end_x = std::min(x + kTileWidth_px, tiles.size_px.x);
-            const BoxReach reach =
-                reach_of({static_cast<float>(x) + 0.5F, static_cast<float>(end_x) - 0.5F, static_cast<float>(y) + 0.5F,
-                          static_cast<float>(end_y) - 0.5F, patch.least_depth, patch.greatest_depth},
-                         *matrix);
-            const std::size_t tile = index(band, patch.tile);
-            if (!lands_inside(reach, target_size_px)) cut_[tile] = 1;
-            if (reach.kind == BoxReach::Kind::behind) continue;
-            PixelRect rect{{0, 0}, target_size_px};
-            if (reach.kind == BoxReach::Kind::bounded) {
-                const RowRange columns = pixels_of(reach.x, target_size_px.x);
-                const RowRange rows = pixels_of(reach.y, target_size_px.y);
-                rect = {{columns.begin, rows.begin}, {columns.end, rows.end}};
-            }
-            rects_[tile] = joined(rects_[tile], rect);
+    for_ranges(threads, static_cast<std::size_t>(bands_), kBandsPerTask, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t band = begin; band < end; ++band) place_band(tiles, matrices, static_cast<int>(band));
+    });
+}
+
+void SplatReach::place_band(const SplatTiles& tiles, const ObjectMatrices& matrices, int band) {
+    const int y = band * kBandHeight_px;
+    const int end_y = std::min(y + kBandHeight_px, tiles.size_px.y);
+    const auto b = static_cast<std::size_t>(band);
+    for (int i = tiles.first_patch[b]; i < tiles.first_patch[b + 1]; ++i) {
+        const TilePatch& patch = tiles.patches[static_cast<std::size_t>(i)];
+        const PixelMatrix* matrix = matrices.find(patch.object);
+        if (matrix == nullptr) continue;
+        const int x = patch.tile * kTileWidth_px;
+        const int end_x = std::min(x + kTileWidth_px, tiles.size_px.x);
+        const BoxReach reach =
+            reach_of({static_cast<float>(x) + 0.5F, static_cast<float>(end_x) - 0.5F, static_cast<float>(y) + 0.5F,
+                      static_cast<float>(end_y) - 0.5F, patch.least_depth, patch.greatest_depth},
+                     *matrix);
+        const std::size_t tile = index(band, patch.tile);
+        if (!lands_inside(reach, target_size_px_)) cut_[tile] = 1;
+        if (reach.kind == BoxReach::Kind::behind) continue;
+        PixelRect rect{{0, 0}, target_size_px_};
+        if (reach.kind == BoxReach::Kind::bounded) {
+            const RowRange columns = pixels_of(reach.x, target_size_px_.x);
+            const RowRange rows = pixels_of(reach.y, target_size_px_.y);
+            rect = {{columns.begin, rows.begin}, {columns.end, rows.end}};
         }
+        rects_[tile] = joined(rects_[tile], rect);
     }
 }
 

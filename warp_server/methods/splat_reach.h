@@ -20,7 +20,8 @@ enum class TileLanding : std::uint8_t {
 class SplatReach {
 public:
     /// Projects the corners of every patch; extents of points and rounding are allowed for.
-    void build(const SplatTiles& tiles, const ObjectMatrices& matrices, glm::ivec2 target_size_px);
+    void build(const SplatTiles& tiles, const ObjectMatrices& matrices, glm::ivec2 target_size_px,
+               TaskPool* threads = nullptr);
 
     /// Target pixels that points of a tile of `band` can write; empty when none of it is seen. Cut to the target.
     [[nodiscard]] const PixelRect& rect_of(int band, int tile) const { return rects_[index(band, tile)]; }
@@ -32,6 +33,7 @@ public:
     [[nodiscard]] int tiles_outside() const;
 
 private:
+    void place_band(const SplatTiles& tiles, const ObjectMatrices& matrices, int band);
     [[nodiscard]] std::size_t index(int band, int tile) const {
         return static_cast<std::size_t>(band) * static_cast<std::size_t>(tiles_per_band_) +
                static_cast<std::size_t>(tile);

@@ -264,7 +264,7 @@ private:
             std::shared_ptr<const PreparedLayer> made;
             const auto& prepared = prepared_or_made<PreparedSurface>(layer, made);
             if (made != nullptr) own_.push_back(std::move(made));
-            matrices_[i].build(layer, target, layers[i].depth_share);
+            matrices_[i].build(layer, target, layers[i].depth_share, &pool_);
             counters_ += bad_pixels(prepared.id_counts, matrices_[i]);
             const bool between_pixels = reads_between_pixels(layer.camera, target.camera);
             layers_.push_back({{&prepared, &matrices_[i], between_pixels}, layers[i].reach, layers[i].nearest_depth});

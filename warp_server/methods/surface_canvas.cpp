@@ -32,7 +32,7 @@ void SurfaceCanvas::begin(DisplayFrame& out, RowRange band, StackBase base) {
     skips_ = {};
     for (Stretch& stretch : stretches_) {
         stretch.newest.fill(-1);
-        stretch.touched.clear();
+        stretch.touched_count = 0;
     }
 }
 
@@ -64,17 +64,19 @@ void SurfaceCanvas::list_fragments(std::size_t number, Stretch& stretch) {
     stretch.first_pixel = first_index_ + (number << SurfaceFragments::kStretchBits);
     const float* depths = frame_->depth.pixels().data() + stretch.first_pixel;
     const Rgba8* colours = frame_->colour.pixels().data() + stretch.first_pixel;
+    std::size_t count = 0;
     fragments_.visit(number, [&](SurfaceFragment& fragment, std::uint32_t index) {
         const auto pixel = static_cast<std::size_t>(fragment.link);
         std::int32_t& newest = stretch.newest[pixel];
-        if (newest < 0) {
-            stretch.touched.push_back(static_cast<std::uint32_t>(pixel));
-            __builtin_prefetch(depths + pixel, 1);
-            __builtin_prefetch(colours + pixel, 1);
-        }
+        __builtin_prefetch(depths + pixel, 1);
+        __builtin_prefetch(colours + pixel, 1);
+        // Without a branch, which nothing could predict.
+        stretch.touched[count] = static_cast<std::uint32_t>(pixel);
+        count += newest < 0 ? 1 : 0;
         fragment.link = newest;
         newest = static_cast<std::int32_t>(index);
     });
+    stretch.touched_count = count;
 }
 
 // Leaves it without any.
@@ -86,18 +88,18 @@ void SurfaceCanvas::composite_stretch(Stretch& stretch, Uncovered uncovered) {
                               frame_->colour.pixels().data() + stretch.first_pixel,
                               static_cast<std::uint32_t>(stretch.first_pixel),
                               &partly_covered_};
-    const std::size_t left = composite_fragments(lists, stretch.touched);
+    const std::size_t left = composite_fragments(lists, {stretch.touched.data(), stretch.touched_count});
     for (std::size_t i = 0; i < left; ++i) {
         std::int32_t& newest = stretch.newest[stretch.touched[i]];
         composite(stretch.first_pixel + stretch.touched[i], newest);
         newest = -1;
     }
-    stretch.touched.clear();
+    stretch.touched_count = 0;
 }
 
 // Takes out pixels of which too little is covered; their fragments wait.
 void SurfaceCanvas::put_off_uncovered(Stretch& stretch) {
-    std::erase_if(stretch.touched, [&](std::uint32_t pixel) {
+    const auto is_put_off = [&](std::uint32_t pixel) {
         if (frame_->depth.pixels()[stretch.first_pixel + pixel] >= 0.0F) return false;
         std::int32_t& newest = stretch.newest[pixel];
         float covered = 0.0F;
@@ -108,7 +110,10 @@ void SurfaceCanvas::put_off_uncovered(Stretch& stretch) {
         }
         newest = -1;
         return true;
-    });
+    };
+    std::uint32_t* begin = stretch.touched.data();
+    stretch.touched_count =
+        static_cast<std::size_t>(std::remove_if(begin, begin + stretch.touched_count, is_put_off) - begin);
 }
 
 std::size_t SurfaceCanvas::count_fragments(std::int32_t newest, float opaque_depth) const {

@@ -53,11 +53,13 @@ private:
 
     static constexpr std::size_t kFewFragments = 8;
 
-    // Pixels of a stretch that have fragments.
+    // The fragments of a stretch, by pixel.
     struct Stretch {
         std::size_t first_pixel;                                      // number in the picture
         std::array<std::int32_t, SurfaceFragments::kStretch> newest;  // of each pixel: a fragment, or -1
-        std::vector<std::uint32_t> touched;
+        // The first touched_count are pixels that have any, each once; room for one more.
+        std::array<std::uint32_t, SurfaceFragments::kStretch + 1> touched;
+        std::size_t touched_count = 0;
     };
     struct WaitingFragment {
         std::size_t pixel;  // number in the picture

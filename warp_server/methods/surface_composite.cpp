@@ -182,33 +182,38 @@ private:
         };
         const auto enough = hn::Or(has_opaque, hn::Ge(covered, hn::Set(DF{}, 0.5F)));
         const auto shown = hn::And(enough, hn::Gt(kept, hn::Zero(DF{})));
-        const auto written = encoder_.encoded({whole(red), whole(green), whole(blue)});
-        write(written, depth, bits_of(DF{}, shown), too_many);
+        const auto composed = encoder_.encoded({whole(red), whole(green), whole(blue)});
         const auto any = hn::Gt(covered, hn::Zero(DF{}));
         const auto partly = hn::AndNot(has_opaque, hn::And(any, hn::Lt(covered, hn::Set(DF{}, kWholeCover))));
         const std::uint32_t bits = bits_of(DF{}, partly) & ~too_many & ((1U << count_) - 1U);
-        if (bits != 0) keep_partly_covered(bits, covered);
+        if (bits != 0) keep_partly_covered(bits, covered, composed, depth);
+        write(composed, depth, shown, too_many);
     }
 
-    // After write().
-    HWY_INLINE void keep_partly_covered(std::uint32_t bits, VF covered) {
+    HWY_INLINE void keep_partly_covered(std::uint32_t bits, VF covered, hn::VFromD<DU> colour, VF depth) {
         HWY_ALIGN float shares[kMaxLanes];
+        HWY_ALIGN float depths[kMaxLanes];
+        HWY_ALIGN std::uint32_t colours[kMaxLanes];
         hn::Store(covered, DF{}, shares);
+        hn::Store(depth, DF{}, depths);
+        hn::Store(colour, DU{}, colours);
         for (; bits != 0; bits &= bits - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctz(bits));
             lists_.partly_covered->push_back(
-                {lists_.first_pixel + touched_[lane], shares[lane], depth_[lane], std::bit_cast<Rgba8>(colour_[lane])});
+                {lists_.first_pixel + touched_[lane], shares[lane], depths[lane], std::bit_cast<Rgba8>(colours[lane])});
         }
     }
 
-    HWY_INLINE void write(hn::VFromD<DU> colour, VF depth, std::uint32_t shown, std::uint32_t too_many) {
-        hn::Store(colour, DU{}, colour_);
-        hn::Store(depth, DF{}, depth_);
+    // Every pixel, what is not shown as it was: without branches, which nothing could predict.
+    HWY_INLINE void write(hn::VFromD<DU> colour, VF depth, hn::Mask<DF> shown, std::uint32_t too_many) {
+        const auto left_alone = lanes_of_bits(DI{}, too_many);
+        const auto written = hn::AndNot(hn::RebindMask(DF{}, left_alone), shown);
+        hn::Store(hn::IfThenElse(written, depth, hn::Load(DF{}, depth_)), DF{}, depth_);
+        hn::Store(hn::IfThenElse(hn::RebindMask(DU{}, written), colour, hn::Load(DU{}, colour_)), DU{}, colour_);
+        hn::Store(hn::IfThenElse(left_alone, hn::Load(DI{}, newest_), hn::Set(DI{}, -1)), DI{}, newest_);
         for (std::size_t i = 0; i < count_; ++i) {
             const std::size_t pixel = touched_[i];
-            if ((too_many >> i & 1U) != 0) continue;
-            lists_.newest[pixel] = -1;
-            if ((shown >> i & 1U) == 0) continue;
+            lists_.newest[pixel] = newest_[i];
             lists_.depths[pixel] = depth_[i];
             reinterpret_cast<std::uint32_t*>(lists_.colours)[pixel] = colour_[i];
         }

@@ -56,7 +56,7 @@ private:
 
         const VF source_x = hn::IfThenElseZero(inside, place_x);
         const VF source_y = hn::IfThenElseZero(inside, place_y);
-        const VI nearest = index_of(hn::ConvertTo(DI{}, source_x), hn::ConvertTo(DI{}, source_y));
+        const VI nearest = index_of(truncated(source_x), truncated(source_y));
         const VF depth = hn::GatherIndex(DF{}, depths_, nearest);
         const Lanes usable = hn::And(hn::Ge(depth, hn::Zero(DF{})), hn::Le(depth, hn::Set(DF{}, 1.0F)));
         bad_depths_ += hn::CountTrue(DF{}, on_target(x, hn::AndNot(usable, inside)));

@@ -84,8 +84,7 @@ private:
 
     // Where the lanes `wanted` of source places land; true for those that can be placed.
     HWY_INLINE Lanes place(Lanes wanted, VF source_x, VF source_y, Landed& landed) const {
-        const VI index =
-            hn::Add(hn::Mul(hn::ConvertTo(DI{}, source_y), hn::Set(DI{}, size_px_.x)), hn::ConvertTo(DI{}, source_x));
+        const VI index = hn::Add(hn::Mul(truncated(source_y), hn::Set(DI{}, size_px_.x)), truncated(source_x));
         const VF depth = hn::GatherIndex(DF{}, depths_, index);
         const auto usable = hn::And(hn::Ge(depth, hn::Zero(DF{})), hn::Le(depth, hn::Set(DF{}, 1.0F)));
         HWY_ALIGN std::int32_t at[kMaxLanes];

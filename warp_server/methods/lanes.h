@@ -73,6 +73,29 @@ HWY_INLINE hn::Mask<D> lanes_of_bits(D d, std::uint32_t bits) {
     return hn::LoadMaskBits(d, bytes);
 }
 
+/// The whole part, towards zero, of values that a 32-bit number holds; of others anything. hn::ConvertTo saturates
+/// them, which takes four more instructions.
+template <class V>
+HWY_INLINE auto truncated(V value) {
+    const hn::RebindToSigned<hn::DFromV<V>> di;
+    using VI [[maybe_unused]] = hn::VFromD<decltype(di)>;
+#if HWY_TARGET == HWY_SCALAR || !HWY_ARCH_X86
+    return hn::ConvertTo(di, value);
+#else
+    if constexpr (sizeof(value.raw) == sizeof(__m128)) {
+        return VI{_mm_cvttps_epi32(value.raw)};
+#if HWY_TARGET <= HWY_AVX2
+    } else if constexpr (sizeof(value.raw) == sizeof(__m256)) {
+        return VI{_mm256_cvttps_epi32(value.raw)};
+#endif
+#if HWY_TARGET <= HWY_AVX3
+    } else {
+        return VI{_mm512_cvttps_epi32(value.raw)};
+#endif
+    }
+#endif
+}
+
 }  // namespace lw::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

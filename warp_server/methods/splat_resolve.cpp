@@ -147,8 +147,8 @@ HWY_INLINE void add_background(D d, const SplatInput& input, const glm::mat3& h,
     const SourcePlaces<D> places = source_places(d, h, pixels.depth.size_px(), x, y);
     auto wanted = hn::AndNot(shown.reached, places.inside);
     if (hn::AllFalse(d, wanted)) return;
-    const auto column = hn::ConvertTo(di, hn::IfThenElseZero(places.inside, places.x_px));
-    const auto row = hn::ConvertTo(di, hn::IfThenElseZero(places.inside, places.y_px));
+    const auto column = truncated(hn::IfThenElseZero(places.inside, places.x_px));
+    const auto row = truncated(hn::IfThenElseZero(places.inside, places.y_px));
     HWY_ALIGN std::int32_t rows[kMaxLanes];
     hn::Store(row, di, rows);
     const int span = 2 * static_cast<int>(hn::Lanes(d));
@@ -283,7 +283,7 @@ HWY_INLINE bool show_background_run(D d, const SplatInput& input, const glm::mat
     for (int i = 0; i < kRun_px; i += lanes) {
         const auto x_px = places.x_px_of(d, x + i);
         const auto per_w = hn::Div(hn::Set(d, 1.0F), places.term(d, x_px, 2));
-        const auto column = hn::ConvertTo(di, hn::Mul(places.term(d, x_px, 0), per_w));
+        const auto column = truncated(hn::Mul(places.term(d, x_px, 0), per_w));
         hn::Store(column, di, columns);
         const int first = std::min(columns[least_lane], last_first);
         if (columns[hn::Lanes(d) - 1 - least_lane] - first >= 2 * lanes) return false;

@@ -178,7 +178,7 @@ private:
         const auto whole = [](VF linear) {
             const VF rounded = hn::Add(linear, hn::Set(DF{}, 0.5F));
             const VF most = hn::Set(DF{}, static_cast<float>(kLinearOne));
-            return hn::BitCast(DU{}, hn::ConvertTo(DI{}, hn::Min(hn::Max(rounded, hn::Zero(DF{})), most)));
+            return hn::BitCast(DU{}, truncated(hn::Min(hn::Max(rounded, hn::Zero(DF{})), most)));
         };
         const auto enough = hn::Or(has_opaque, hn::Ge(covered, hn::Set(DF{}, 0.5F)));
         const auto shown = hn::And(enough, hn::Gt(kept, hn::Zero(DF{})));

@@ -167,7 +167,7 @@ private:
         const auto whole = [](VF value) {
             const VF most = hn::Set(DF{}, static_cast<float>(kLinearOne));
             const VF rounded = hn::Add(hn::Min(value, most), hn::Set(DF{}, 0.5F));
-            return hn::BitCast(DU{}, hn::ConvertTo(DI{}, rounded));
+            return hn::BitCast(DU{}, truncated(rounded));
         };
         const auto word = [](auto first, auto second) { return hn::Or(first, hn::ShiftLeft<16>(second)); };
         const auto coverage_15 = whole(hn::Mul(coverage, hn::Set(DF{}, static_cast<float>(kLinearOne))));

@@ -275,9 +275,9 @@ private:
                                 hn::Add(origin_y, solved.dy));
                 } else {
                     const auto cell = fragments_.has_lattices() ? hn::LoadU(DI{}, list.edge_number.data() + first)
-                                                                : hn::ConvertTo(DI{}, origin_x);
-                    fragments_.push(inside, pixel, solved.depth, cell, hn::ConvertTo(DI{}, origin_y), solved.dx,
-                                    solved.dy, trusted(corners));
+                                                                : truncated(origin_x);
+                    fragments_.push(inside, pixel, solved.depth, cell, truncated(origin_y), solved.dx, solved.dy,
+                                    trusted(corners));
                 }
             }
         }
@@ -299,8 +299,8 @@ private:
                 queue_.push(inside, pixel, solved.depth, hn::Add(origin_x, solved.dx), hn::Add(origin_y, solved.dy));
             } else {
                 const auto cell =
-                    fragments_.has_lattices() ? hn::Set(DI{}, list.edge_number[index]) : hn::ConvertTo(DI{}, origin_x);
-                fragments_.push(inside, pixel, solved.depth, cell, hn::ConvertTo(DI{}, origin_y), solved.dx, solved.dy,
+                    fragments_.has_lattices() ? hn::Set(DI{}, list.edge_number[index]) : truncated(origin_x);
+                fragments_.push(inside, pixel, solved.depth, cell, truncated(origin_y), solved.dx, solved.dy,
                                 trusted(hn::Set(DI{}, corners)));
             }
         };
@@ -380,7 +380,7 @@ private:
                 auto inside = solve(patch, row, pixel_x, solved);
                 inside = hn::And(inside, hn::And(used_rows, hn::Lt(pixel_x, column_end)));
                 if (hn::AllFalse(DF{}, inside)) continue;
-                const auto pixel = hn::Add(hn::Mul(hn::ConvertTo(DI{}, pixel_y), width), hn::ConvertTo(DI{}, pixel_x));
+                const auto pixel = hn::Add(hn::Mul(truncated(pixel_y), width), truncated(pixel_x));
                 push(inside, pixel, solved);
             }
         }
@@ -412,9 +412,9 @@ private:
             const auto in_columns = hn::And(hn::Ge(solved.dx, edge_left), hn::Le(solved.dx, edge_right));
             const auto in_rows = hn::And(hn::Ge(solved.dy, edge_top), hn::Le(solved.dy, edge_bottom));
             const auto fragment = hn::And(part, hn::And(in_columns, in_rows));
-            const auto cell = hn::Add(
-                edge_numbers != nullptr ? row_value(edge_numbers, cell_y) : hn::ConvertTo(DI{}, origin_x), cell_x);
-            fragments_.push(fragment, pixel, solved.depth, cell, hn::Add(hn::ConvertTo(DI{}, origin_y), cell_y),
+            const auto cell =
+                hn::Add(edge_numbers != nullptr ? row_value(edge_numbers, cell_y) : truncated(origin_x), cell_x);
+            fragments_.push(fragment, pixel, solved.depth, cell, hn::Add(truncated(origin_y), cell_y),
                             hn::Sub(solved.dx, hn::ConvertTo(DF{}, cell_x)),
                             hn::Sub(solved.dy, hn::ConvertTo(DF{}, cell_y)), trusted(corners));
         };
@@ -448,7 +448,7 @@ private:
     [[nodiscard]] static HWY_INLINE hn::VFromD<DI> cell_of(VF place) {
         const VF last = hn::Set(DF{}, static_cast<float>(kTileSize - 1));
         const VF from_begin = hn::Add(place, hn::Set(DF{}, kCellsBegin_px));
-        return hn::ConvertTo(DI{}, hn::Min(hn::Max(from_begin, hn::Zero(DF{})), last));
+        return truncated(hn::Min(hn::Max(from_begin, hn::Zero(DF{})), last));
     }
 
     const PatchInput& input_;

@@ -172,7 +172,7 @@ HWY_INLINE std::uint32_t place_patches(D d, const PatchList& list, std::size_t f
         behind.push_back(static_cast<std::uint32_t>(first + static_cast<std::size_t>(__builtin_ctz(bits))));
     }
     const auto bounded = [&](V value, float low, float high) {
-        return hn::ConvertTo(di, hn::Min(hn::Max(value, set(low)), set(high)));
+        return truncated(hn::Min(hn::Max(value, set(low)), set(high)));
     };
     const auto width = static_cast<float>(band.width_px);
     const auto band_begin = static_cast<float>(band.rows.begin);

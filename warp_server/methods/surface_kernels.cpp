@@ -370,15 +370,15 @@ private:
         const VF row_end = set(placed.y_end[lane]);
         const VF column_end = set(placed.x_end[lane]);
         const auto width = hn::Set(DI{}, target_width_);
-        for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
-            const VF pixel_y = hn::Add(lane_y, set(y));
-            const PatchRow row = row_of(patch, pixel_y);
-            const auto used_rows = hn::And(used, hn::Lt(pixel_y, row_end));
-            for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
-                const VF pixel_x = hn::Add(lane_x, set(x));
+        // Nearly all boxes are narrow: the inner loop is the one that goes on.
+        for (int x = placed.x_begin[lane]; x < placed.x_end[lane]; x += columns) {
+            const VF pixel_x = hn::Add(lane_x, set(x));
+            const auto used_columns = hn::And(used, hn::Lt(pixel_x, column_end));
+            for (int y = placed.y_begin[lane]; y < placed.y_end[lane]; y += rows) {
+                const VF pixel_y = hn::Add(lane_y, set(y));
                 Solved solved;
-                auto inside = solve(patch, row, pixel_x, solved);
-                inside = hn::And(inside, hn::And(used_rows, hn::Lt(pixel_x, column_end)));
+                auto inside = solve(patch, row_of(patch, pixel_y), pixel_x, solved);
+                inside = hn::And(inside, hn::And(used_columns, hn::Lt(pixel_y, row_end)));
                 if (hn::AllFalse(DF{}, inside)) continue;
                 const auto pixel = hn::Add(hn::Mul(truncated(pixel_y), width), truncated(pixel_x));
                 push(inside, pixel, solved);

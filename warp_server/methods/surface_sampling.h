@@ -294,6 +294,14 @@ private:
         const __m512 low = _mm512_load_ps(table.data());
         const __m512 high = _mm512_load_ps(table.data() + 16);
         return VF{_mm512_permutex2var_ps(low, _mm512_add_epi32(entry.raw, _mm512_set1_epi32(2)), high)};
+#elif HWY_TARGET == HWY_AVX2
+        // A lookup takes the lowest three bits, the next two choose among four of them: gathers take twice as long.
+        const __m256i at = _mm256_add_epi32(entry.raw, _mm256_set1_epi32(2));
+        const auto eight = [&](int first) { return _mm256_permutevar8x32_ps(_mm256_load_ps(table.data() + first), at); };
+        const __m256 odd_eight = _mm256_castsi256_ps(_mm256_slli_epi32(at, 28));
+        const __m256 upper_sixteen = _mm256_castsi256_ps(_mm256_slli_epi32(at, 27));
+        return VF{_mm256_blendv_ps(_mm256_blendv_ps(eight(0), eight(8), odd_eight),
+                                   _mm256_blendv_ps(eight(16), eight(24), odd_eight), upper_sixteen)};
 #else
         const auto at = hn::Sub(hn::BitCast(DI{}, entry), hn::Set(DI{}, 254));
         return hn::GatherIndex(DF{}, table.data(), at);

@@ -94,18 +94,19 @@ private:
     }
 
     [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
-#if LW_HAS_WIDE_LOOKUPS
-        // A vector of the target lies in two rows of the source, in a few more where the head rolled. Places along it
-        // move one way, so its ends say where.
-        const std::size_t last = hn::Lanes(DF{}) - 1;
-        const auto least = [&](VI of) { return std::min(hn::ExtractLane(of, 0), hn::ExtractLane(of, last)); };
+#if LW_HAS_RUN_LOOKUPS
+        // A vector of the target lies in two rows of the source, in a few more where the head rolled.
+        HWY_ALIGN std::int32_t x[kMaxLanes];
+        HWY_ALIGN std::int32_t y[kMaxLanes];
+        hn::Store(taps.x, DI{}, x);
+        hn::Store(taps.y, DI{}, y);
         LinearColours colours;
-        const Lanes all = hn::FirstN(DF{}, last + 1);
-        if (reader_.read_run(taps, all, least(taps.x), least(taps.y), colours)) return colours;
-        const std::size_t middle = last / 2;
-        if (reader_.read_near(taps, hn::ExtractLane(taps.x, middle), hn::ExtractLane(taps.y, middle), colours)) {
-            return colours;
-        }
+        constexpr std::uint32_t kAll = (1U << kMaxLanes) - 1;
+        if (reader_.read_run(taps, kAll, x, y, colours)) return colours;
+#if LW_HAS_WIDE_LOOKUPS
+        constexpr std::size_t kMiddle = kMaxLanes / 2 - 1;
+        if (reader_.read_near(taps, x[kMiddle], y[kMiddle], colours)) return colours;
+#endif
 #endif
         return reader_.read(taps);
     }

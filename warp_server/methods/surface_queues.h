@@ -91,15 +91,8 @@ private:
     HWY_INLINE void read(Run& run) const {
         const Taps taps{hn::Load(DI{}, run.x), hn::Load(DI{}, run.y), hn::Load(DI{}, run.fx), hn::Load(DI{}, run.fy)};
         LinearColours linear;
-#if LW_HAS_WIDE_LOOKUPS
-        // Along a line in the source, so that its ends hold the smallest values; where rounding has it otherwise the
-        // run is read one by one.
-        const auto first = static_cast<unsigned>(__builtin_ctz(run.wanted));
-        const auto last = 31U - static_cast<unsigned>(__builtin_clz(run.wanted));
-        const bool is_short =
-            reader_.read_run(taps, lanes_of_bits(DU{}, run.wanted), std::min(run.x[first], run.x[last]),
-                             std::min(run.y[first], run.y[last]), linear);
-        if (!is_short) linear = reader_.read(taps);
+#if LW_HAS_RUN_LOOKUPS
+        if (!reader_.read_run(taps, run.wanted, run.x, run.y, linear)) linear = reader_.read(taps);
 #else
         reader_.prefetch_below(hn::GetLane(taps.x), hn::GetLane(taps.y));
         linear = reader_.read(taps);

@@ -132,35 +132,31 @@ public:
 #endif
     }
 
+#if LW_HAS_RUN_LOOKUPS
+    /// Colours at the taps of the lanes whose bits are in `wanted`, at least one. Their places `x` and `y`, as in the
+    /// taps, lie along a line in the source, so that its ends hold the smallest values. False, and nothing read, when
+    /// rounding has it otherwise, or when they do not lie in two rows and a stretch of columns that one lookup reaches,
+    /// with their right and lower neighbours.
+    [[nodiscard]] HWY_INLINE bool read_run(const Taps& taps, std::uint32_t wanted, const std::int32_t* x,
+                                           const std::int32_t* y, LinearColours& colours) const {
+        const auto first = static_cast<unsigned>(__builtin_ctz(wanted));
+        const auto last = 31U - static_cast<unsigned>(__builtin_clz(wanted));
+        const int first_y = std::min(y[first], y[last]);
 #if LW_HAS_WIDE_LOOKUPS
-    /// Colours at the taps of the lanes `wanted`. False, and nothing read, when they do not lie in two rows and one
-    /// vector's stretch of columns from (first_x, first_y) on, with their right and lower neighbours.
-    template <class M>
-    [[nodiscard]] HWY_INLINE bool read_run(const Taps& taps, M wanted, int first_x, int first_y,
-                                           LinearColours& colours) const {
-        const auto column = hn::Sub(taps.x, hn::Set(DI{}, first_x));
-        const auto below_first = hn::Sub(taps.y, hn::Set(DI{}, first_y));
-        constexpr std::uint32_t kLastColumn = LinearImage::kSpareColumns - 2;
-        const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
-        const auto far_row = hn::Gt(hn::BitCast(DU{}, below_first), hn::Set(DU{}, 1U));
-        if (!hn::AllFalse(DU{}, hn::And(hn::RebindMask(DU{}, wanted), hn::Or(far_column, far_row)))) return false;
-
-        // Entries of two rows lie in two vectors, so that bit 5 of a lookup says which row.
-        const PairLookup at{hn::Add(column, hn::ShiftLeft<5>(below_first)), taps};
-        const std::uint16_t* from = values_ + first_y * row_stride_ + first_x;
-        prefetch_below(first_x, first_y);
-        const auto channel = [&](std::ptrdiff_t index) {
-            const std::uint16_t* row0 = from + index * channel_stride_;
-            const __m512i above = _mm512_loadu_si512(row0);
-            const __m512i middle = _mm512_loadu_si512(row0 + row_stride_);
-            const __m512i below = _mm512_loadu_si512(row0 + 2 * row_stride_);
-            return at.mixed(_mm512_permutex2var_epi16(above, at.entry, middle),
-                            _mm512_permutex2var_epi16(middle, at.entry, below));
-        };
-        colours = {channel(0), channel(1), channel(2)};
-        return true;
+        return read_wide(taps, lanes_of_bits(DU{}, wanted), std::min(x[first], x[last]), first_y, colours);
+#else
+        // Each half of the vector has columns of its own; an empty one those of the other.
+        constexpr unsigned kHalf = 4;
+        const unsigned left_last = std::min(last, kHalf - 1);
+        const unsigned right_first = std::max(first, kHalf);
+        const int left = first < kHalf ? std::min(x[first], x[left_last]) : std::min(x[first], x[last]);
+        const int right = last >= kHalf ? std::min(x[right_first], x[last]) : left;
+        return read_halves(taps, lanes_of_bits(DU{}, wanted), left, right, first_y, colours);
+#endif
     }
+#endif
 
+#if LW_HAS_WIDE_LOOKUPS
     /// The same for taps in any order, where all of them lie near (x, y): from a row above to two rows below, and about
     /// as far to each side as a vector reaches. Several times as fast as read().
     [[nodiscard]] HWY_INLINE bool read_near(const Taps& taps, int x, int y, LinearColours& colours) const {
@@ -199,7 +195,79 @@ public:
 private:
     static constexpr std::ptrdiff_t kPrefetchRows = 5;  // those below the rows that the next runs read
 
+#if LW_HAS_RUN_LOOKUPS && !LW_HAS_WIDE_LOOKUPS
+    // A run whose halves begin at columns `left` and `right`. A lookup takes bytes from 16 of its own half: two of them
+    // reach 16 columns, and what is not in one is 0 there.
+    template <class M>
+    [[nodiscard]] HWY_INLINE bool read_halves(const Taps& taps, M wanted, int left, int right, int first_y,
+                                              LinearColours& colours) const {
+        const __m256i begin = _mm256_set_m128i(_mm_set1_epi32(right), _mm_set1_epi32(left));
+        const auto column = hn::Sub(taps.x, hn::VFromD<DI>{begin});
+        const auto below_first = hn::Sub(taps.y, hn::Set(DI{}, first_y));
+        constexpr std::uint32_t kLastColumn = 14;
+        const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
+        const auto far_row = hn::Gt(hn::BitCast(DU{}, below_first), hn::Set(DU{}, 1U));
+        if (!hn::AllFalse(DU{}, hn::And(hn::RebindMask(DU{}, wanted), hn::Or(far_column, far_row)))) return false;
+
+        const __m128i first_byte = _mm_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12);
+        const __m256i bytes =
+            _mm256_add_epi8(_mm256_shuffle_epi8(hn::Add(column, column).raw, _mm256_broadcastsi128_si256(first_byte)),
+                            _mm256_set1_epi32(0x03020100));
+        const __m256i in_first = _mm256_add_epi8(bytes, _mm256_set1_epi8(0x70));   // top bit set from 16 on
+        const __m256i in_second = _mm256_sub_epi8(bytes, _mm256_set1_epi8(0x10));  // and below 16
+        const __m256 in_lower = _mm256_castsi256_ps(_mm256_slli_epi32(below_first.raw, 31));
+        const std::uint16_t* from = values_ + first_y * row_stride_;
+        prefetch_below(left, first_y);
+        const auto channel = [&](std::ptrdiff_t index) LW_INLINE_LAMBDA {
+            const auto pairs_in = [&](std::ptrdiff_t row) LW_INLINE_LAMBDA {
+                const std::uint16_t* values = from + row * row_stride_ + index * channel_stride_;
+                const auto both = [&](std::ptrdiff_t by) LW_INLINE_LAMBDA {
+                    const auto half = [](const std::uint16_t* at) {
+                        return _mm_loadu_si128(reinterpret_cast<const __m128i*>(at));
+                    };
+                    return _mm256_set_m128i(half(values + right + by), half(values + left + by));
+                };
+                const __m256i pairs =
+                    _mm256_or_si256(_mm256_shuffle_epi8(both(0), in_first), _mm256_shuffle_epi8(both(8), in_second));
+                return _mm256_castsi256_ps(pairs);
+            };
+            const __m256 middle = pairs_in(1);
+            const auto chosen = [&](__m256 upper, __m256 lower) LW_INLINE_LAMBDA {
+                return hn::VFromD<DU>{_mm256_castps_si256(_mm256_blendv_ps(upper, lower, in_lower))};
+            };
+            return mixed({chosen(pairs_in(0), middle), chosen(middle, pairs_in(2))}, taps.fx, taps.fy);
+        };
+        colours = {channel(0), channel(1), channel(2)};
+        return true;
+    }
+#endif
+
 #if LW_HAS_WIDE_LOOKUPS
+    template <class M>
+    [[nodiscard]] HWY_INLINE bool read_wide(const Taps& taps, M wanted, int first_x, int first_y,
+                                            LinearColours& colours) const {
+        const auto column = hn::Sub(taps.x, hn::Set(DI{}, first_x));
+        const auto below_first = hn::Sub(taps.y, hn::Set(DI{}, first_y));
+        constexpr std::uint32_t kLastColumn = LinearImage::kSpareColumns - 2;
+        const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
+        const auto far_row = hn::Gt(hn::BitCast(DU{}, below_first), hn::Set(DU{}, 1U));
+        if (!hn::AllFalse(DU{}, hn::And(hn::RebindMask(DU{}, wanted), hn::Or(far_column, far_row)))) return false;
+
+        // Entries of two rows lie in two vectors, so that bit 5 of a lookup says which row.
+        const PairLookup at{hn::Add(column, hn::ShiftLeft<5>(below_first)), taps};
+        const std::uint16_t* from = values_ + first_y * row_stride_ + first_x;
+        prefetch_below(first_x, first_y);
+        const auto channel = [&](std::ptrdiff_t index) {
+            const std::uint16_t* row0 = from + index * channel_stride_;
+            const __m512i above = _mm512_loadu_si512(row0);
+            const __m512i middle = _mm512_loadu_si512(row0 + row_stride_);
+            const __m512i below = _mm512_loadu_si512(row0 + 2 * row_stride_);
+            return at.mixed(_mm512_permutex2var_epi16(above, at.entry, middle),
+                            _mm512_permutex2var_epi16(middle, at.entry, below));
+        };
+        colours = {channel(0), channel(1), channel(2)};
+        return true;
+    }
     // Looks up left neighbours in the lower half of the lanes and right ones in the upper half, and mixes them as
     // mixed() below does.
     struct PairLookup {
@@ -297,7 +365,9 @@ private:
 #elif HWY_TARGET == HWY_AVX2
         // A lookup takes the lowest three bits, the next two choose among four of them: gathers take twice as long.
         const __m256i at = _mm256_add_epi32(entry.raw, _mm256_set1_epi32(2));
-        const auto eight = [&](int first) { return _mm256_permutevar8x32_ps(_mm256_load_ps(table.data() + first), at); };
+        const auto eight = [&](int first) {
+            return _mm256_permutevar8x32_ps(_mm256_load_ps(table.data() + first), at);
+        };
         const __m256 odd_eight = _mm256_castsi256_ps(_mm256_slli_epi32(at, 28));
         const __m256 upper_sixteen = _mm256_castsi256_ps(_mm256_slli_epi32(at, 27));
         return VF{_mm256_blendv_ps(_mm256_blendv_ps(eight(0), eight(8), odd_eight),

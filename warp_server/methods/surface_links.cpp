@@ -87,14 +87,24 @@ void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& be
             return hn::IfThenElse(same, hn::LoadU(d, row.depth.data() + at + offset), hn::Set(d, -1.0F));
         };
         const auto own = hn::LoadU(d, here.depth.data() + at);
+        // Sky, and what stands square: most vectors of many pictures need no more than this.
+        const auto is_own = [&](const PaddedRow& row, std::ptrdiff_t offset) {
+            const auto same_id = hn::Eq(hn::LoadU(di, row.id.data() + at + offset), id);
+            return hn::And(hn::RebindMask(d, same_id), hn::Eq(hn::LoadU(d, row.depth.data() + at + offset), own));
+        };
+        if (x + lanes <= width &&
+            hn::AllTrue(d, hn::And(hn::Ge(own, hn::Zero(d)), hn::And(is_own(here, 1), is_own(below, 0))))) {
+            hn::StoreU(hn::Set(d8, kToRight | kDown), d8, out + x);
+            continue;
+        }
         const auto stands_still = hn::RebindMask(d, hn::Eq(id, hn::Zero(di)));
         const auto unseen = hn::IfThenElseZero(stands_still, hn::Set(d, unseen_step));
         const auto to_right = linked(d, depth_of_own_object(here, -1), own, depth_of_own_object(here, 1),
                                      depth_of_own_object(here, 2), unseen);
         const auto down = linked(d, depth_of_own_object(above, 0), own, depth_of_own_object(below, 0),
                                  depth_of_own_object(second_below, 0), unseen);
-        const auto bits = hn::Or(hn::IfThenElseZero(hn::RebindMask(di, to_right), hn::Set(di, 1)),
-                                 hn::IfThenElseZero(hn::RebindMask(di, down), hn::Set(di, 2)));
+        const auto bits = hn::Or(hn::IfThenElseZero(hn::RebindMask(di, to_right), hn::Set(di, kToRight)),
+                                 hn::IfThenElseZero(hn::RebindMask(di, down), hn::Set(di, kDown)));
         if (x + lanes <= width) {
             hn::StoreU(hn::DemoteTo(d8, bits), d8, out + x);
         } else {

@@ -21,6 +21,10 @@ enum CellLink : std::uint8_t {
     kLinkRising = 32,   ///< 1-2
 };
 
+/// Which of its neighbours a pixel is linked to.
+inline constexpr std::uint8_t kToRight = 1;
+inline constexpr std::uint8_t kDown = 2;
+
 /// Links of an image. Coordinates may exceed the image by a pixel; the last pixels count again there.
 class SurfaceLinks {
 public:
@@ -32,8 +36,8 @@ public:
     [[nodiscard]] const CpuPixels& pixels() const { return *pixels_; }
 
     /// Is (x, y) on one surface with its right (lower) neighbour? Inside the image only.
-    [[nodiscard]] bool to_right(int x, int y) const { return (to_right_and_down_.at(x, y) & 1) != 0; }
-    [[nodiscard]] bool down(int x, int y) const { return (to_right_and_down_.at(x, y) & 2) != 0; }
+    [[nodiscard]] bool to_right(int x, int y) const { return (to_right_and_down_.at(x, y) & kToRight) != 0; }
+    [[nodiscard]] bool down(int x, int y) const { return (to_right_and_down_.at(x, y) & kDown) != 0; }
 
     /// The sides of the cell at (x, y): CellLink bits.
     [[nodiscard]] std::uint8_t sides(int x, int y) const {

@@ -22,6 +22,19 @@ TEST(TaskPool, DoesEveryTaskOnceAndAgain) {
     }
 }
 
+TEST(TaskPool, SharesRangesOutWhole) {
+    TaskPool pool{3};
+    for (TaskPool* threads : {static_cast<TaskPool*>(nullptr), &pool}) {
+        for (const std::size_t size : {0U, 1U, 7U, 8U, 9U, 100U}) {
+            std::vector<std::atomic<int>> done(size);
+            for_ranges(threads, size, 8, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) ++done[i];
+            });
+            for (const std::atomic<int>& count : done) EXPECT_EQ(count.load(), 1);
+        }
+    }
+}
+
 TEST(TaskPool, NoWorkerHasTwoTasksAtATime) {
     constexpr int kThreads = 3;
     TaskPool pool{kThreads};

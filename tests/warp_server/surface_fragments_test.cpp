@@ -30,7 +30,7 @@ TEST(SurfaceFragments, AreAllWhereTheyWerePut) {
         std::vector<std::vector<std::size_t>> expected(5);
         for (std::size_t i = 0; i < 3000; ++i) {
             const std::size_t pixel = i * i * 7919 % kPixels;
-            fragments.put(pixel, {.depth = static_cast<float>(pixel), .link = -7});
+            fragments.put(pixel, SurfaceFragment{});
             expected[pixel / SurfaceFragments::kStretch].push_back(pixel);
         }
         EXPECT_FALSE(fragments.empty());
@@ -44,7 +44,7 @@ TEST(SurfaceFragments, AreAllWhereTheyWerePut) {
 TEST(SurfaceFragments, AStretchMayHaveAnyNumberOrNone) {
     SurfaceFragments fragments;
     fragments.begin(kPixels);
-    for (int i = 0; i < 1000; ++i) fragments.put(kPixels - 1, {.depth = 0.5F});
+    for (int i = 0; i < 1000; ++i) fragments.put(kPixels - 1, SurfaceFragment{});
     EXPECT_EQ(pixels_of(fragments, 4), std::vector<std::size_t>(1000, kPixels - 1));
     for (std::size_t stretch = 0; stretch < 4; ++stretch) EXPECT_TRUE(pixels_of(fragments, stretch).empty());
 }

@@ -94,21 +94,11 @@ private:
     }
 
     [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
-#if LW_HAS_RUN_LOOKUPS
-        // A vector of the target lies in two rows of the source, in a few more where the head rolled.
         HWY_ALIGN std::int32_t x[kMaxLanes];
         HWY_ALIGN std::int32_t y[kMaxLanes];
         hn::Store(taps.x, DI{}, x);
         hn::Store(taps.y, DI{}, y);
-        LinearColours colours;
-        constexpr std::uint32_t kAll = (1U << kMaxLanes) - 1;
-        if (reader_.read_run(taps, kAll, x, y, colours)) return colours;
-#if LW_HAS_WIDE_LOOKUPS
-        constexpr std::size_t kMiddle = kMaxLanes / 2 - 1;
-        if (reader_.read_near(taps, x[kMiddle], y[kMiddle], colours)) return colours;
-#endif
-#endif
-        return reader_.read(taps);
+        return reader_.read_along(taps, (1U << hn::Lanes(DF{})) - 1U, x, y);
     }
 
     // Does one of the four pixels that are mixed show nothing?

@@ -27,14 +27,6 @@
 #define LW_HAS_WIDE_LOOKUPS 0
 #endif
 
-/// 1 where a few lookups find neighbours in a row faster than gathers do.
-#undef LW_HAS_RUN_LOOKUPS
-#if LW_HAS_WIDE_LOOKUPS || HWY_TARGET == HWY_AVX2
-#define LW_HAS_RUN_LOOKUPS 1
-#else
-#define LW_HAS_RUN_LOOKUPS 0
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 

@@ -90,13 +90,7 @@ private:
 
     HWY_INLINE void read(Run& run) const {
         const Taps taps{hn::Load(DI{}, run.x), hn::Load(DI{}, run.y), hn::Load(DI{}, run.fx), hn::Load(DI{}, run.fy)};
-        LinearColours linear;
-#if LW_HAS_RUN_LOOKUPS
-        if (!reader_.read_run(taps, run.wanted, run.x, run.y, linear)) linear = reader_.read(taps);
-#else
-        reader_.prefetch_below(hn::GetLane(taps.x), hn::GetLane(taps.y));
-        linear = reader_.read(taps);
-#endif
+        const LinearColours linear = reader_.read_along(taps, run.wanted, run.x, run.y);
         hn::Store(linear.red, DU{}, run.red);
         hn::Store(linear.green, DU{}, run.green);
         hn::Store(linear.blue, DU{}, run.blue);
@@ -173,7 +167,10 @@ private:
     [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
 #if LW_HAS_WIDE_LOOKUPS
         LinearColours near;
-        if (reader_.read_near(taps, hn::GetLane(taps.x), hn::GetLane(taps.y), near)) return near;
+        const auto all = hn::Eq(taps.x, taps.x);
+        if (reader_.read_near(taps, hn::RebindMask(DU{}, all), hn::GetLane(taps.x), hn::GetLane(taps.y), near)) {
+            return near;
+        }
 #endif
         return reader_.read(taps);
     }

@@ -132,34 +132,41 @@ public:
 #endif
     }
 
-#if LW_HAS_RUN_LOOKUPS
-    /// Colours at the taps of the lanes whose bits are in `wanted`, at least one. Their places `x` and `y`, as in the
-    /// taps, lie along a line in the source, so that its ends hold the smallest values. False, and nothing read, when
-    /// rounding has it otherwise, or when they do not lie in two rows and a stretch of columns that one lookup reaches,
-    /// with their right and lower neighbours.
-    [[nodiscard]] HWY_INLINE bool read_run(const Taps& taps, std::uint32_t wanted, const std::int32_t* x,
-                                           const std::int32_t* y, LinearColours& colours) const {
+    /// Colours at the taps of the lanes whose bits are in `wanted`, at least one, and anything at the others. The taps
+    /// lie along a line in the source, as they do for pixels of one row on one plane; `x` and `y` are their places
+    /// again. Asks for the rows below.
+    [[nodiscard]] HWY_INLINE LinearColours read_along(const Taps& taps, std::uint32_t wanted, const std::int32_t* x,
+                                                      const std::int32_t* y) const {
+        // The ends hold the smallest values; where rounding has it otherwise, no lookup reaches all.
         const auto first = static_cast<unsigned>(__builtin_ctz(wanted));
         const auto last = 31U - static_cast<unsigned>(__builtin_clz(wanted));
         const int first_y = std::min(y[first], y[last]);
+        prefetch_below(std::min(x[first], x[last]), first_y);
 #if LW_HAS_WIDE_LOOKUPS
-        return read_wide(taps, lanes_of_bits(DU{}, wanted), std::min(x[first], x[last]), first_y, colours);
-#else
+        LinearColours colours;
+        const auto lanes = lanes_of_bits(DU{}, wanted);
+        if (read_wide(taps, lanes, std::min(x[first], x[last]), first_y, colours)) return colours;
+        const unsigned middle = (first + last) / 2;  // more than two rows, where the head rolled
+        if (read_near(taps, lanes, x[middle], y[middle], colours)) return colours;
+#elif HWY_TARGET == HWY_AVX2
         // Each half of the vector has columns of its own; an empty one those of the other.
         constexpr unsigned kHalf = 4;
         const unsigned left_last = std::min(last, kHalf - 1);
         const unsigned right_first = std::max(first, kHalf);
         const int left = first < kHalf ? std::min(x[first], x[left_last]) : std::min(x[first], x[last]);
         const int right = last >= kHalf ? std::min(x[right_first], x[last]) : left;
-        return read_halves(taps, lanes_of_bits(DU{}, wanted), left, right, first_y, colours);
+        LinearColours colours;
+        if (read_halves(taps, lanes_of_bits(DU{}, wanted), left, right, first_y, colours)) return colours;
 #endif
+        return read(taps);
     }
-#endif
 
 #if LW_HAS_WIDE_LOOKUPS
-    /// The same for taps in any order, where all of them lie near (x, y): from a row above to two rows below, and about
-    /// as far to each side as a vector reaches. Several times as fast as read().
-    [[nodiscard]] HWY_INLINE bool read_near(const Taps& taps, int x, int y, LinearColours& colours) const {
+    /// Colours at the taps of the lanes `wanted`, in any order. False, and nothing read, when they do not all lie near
+    /// (x, y): from a row above to two rows below, and about as far to each side as a vector reaches. Several times as
+    /// fast as read().
+    template <class M>
+    [[nodiscard]] HWY_INLINE bool read_near(const Taps& taps, M wanted, int x, int y, LinearColours& colours) const {
         constexpr int kBefore = LinearImage::kSpareColumns / 2 - 1;
         const int first_x = std::max(x - kBefore, 0);
         const int first_y = std::max(y - 1, 0);
@@ -168,7 +175,7 @@ public:
         constexpr std::uint32_t kLastColumn = LinearImage::kSpareColumns - 2;
         const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
         const auto far_row = hn::Gt(hn::BitCast(DU{}, row), hn::Set(DU{}, 3U));
-        if (!hn::AllFalse(DU{}, hn::Or(far_column, far_row))) return false;
+        if (!hn::AllFalse(DU{}, hn::And(wanted, hn::Or(far_column, far_row)))) return false;
 
         const auto odd_row = hn::And(row, hn::Set(DI{}, 1));
         const PairLookup at{hn::Add(column, hn::ShiftLeft<5>(odd_row)), taps};
@@ -195,7 +202,7 @@ public:
 private:
     static constexpr std::ptrdiff_t kPrefetchRows = 5;  // those below the rows that the next runs read
 
-#if LW_HAS_RUN_LOOKUPS && !LW_HAS_WIDE_LOOKUPS
+#if HWY_TARGET == HWY_AVX2
     // A run whose halves begin at columns `left` and `right`. A lookup takes bytes from 16 of its own half: two of them
     // reach 16 columns, and what is not in one is 0 there.
     template <class M>
@@ -207,7 +214,7 @@ private:
         constexpr std::uint32_t kLastColumn = 14;
         const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
         const auto far_row = hn::Gt(hn::BitCast(DU{}, below_first), hn::Set(DU{}, 1U));
-        if (!hn::AllFalse(DU{}, hn::And(hn::RebindMask(DU{}, wanted), hn::Or(far_column, far_row)))) return false;
+        if (!hn::AllFalse(DU{}, hn::And(wanted, hn::Or(far_column, far_row)))) return false;
 
         const __m128i first_byte = _mm_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12);
         const __m256i bytes =
@@ -217,7 +224,6 @@ private:
         const __m256i in_second = _mm256_sub_epi8(bytes, _mm256_set1_epi8(0x10));  // and below 16
         const __m256 in_lower = _mm256_castsi256_ps(_mm256_slli_epi32(below_first.raw, 31));
         const std::uint16_t* from = values_ + first_y * row_stride_;
-        prefetch_below(left, first_y);
         const auto channel = [&](std::ptrdiff_t index) LW_INLINE_LAMBDA {
             const auto pairs_in = [&](std::ptrdiff_t row) LW_INLINE_LAMBDA {
                 const std::uint16_t* values = from + row * row_stride_ + index * channel_stride_;
@@ -251,12 +257,11 @@ private:
         constexpr std::uint32_t kLastColumn = LinearImage::kSpareColumns - 2;
         const auto far_column = hn::Gt(hn::BitCast(DU{}, column), hn::Set(DU{}, kLastColumn));
         const auto far_row = hn::Gt(hn::BitCast(DU{}, below_first), hn::Set(DU{}, 1U));
-        if (!hn::AllFalse(DU{}, hn::And(hn::RebindMask(DU{}, wanted), hn::Or(far_column, far_row)))) return false;
+        if (!hn::AllFalse(DU{}, hn::And(wanted, hn::Or(far_column, far_row)))) return false;
 
         // Entries of two rows lie in two vectors, so that bit 5 of a lookup says which row.
         const PairLookup at{hn::Add(column, hn::ShiftLeft<5>(below_first)), taps};
         const std::uint16_t* from = values_ + first_y * row_stride_ + first_x;
-        prefetch_below(first_x, first_y);
         const auto channel = [&](std::ptrdiff_t index) {
             const std::uint16_t* row0 = from + index * channel_stride_;
             const __m512i above = _mm512_loadu_si512(row0);

@@ -203,8 +203,10 @@ private:
     static constexpr std::ptrdiff_t kPrefetchRows = 5;  // those below the rows that the next runs read
 
 #if HWY_TARGET == HWY_AVX2
-    // A run whose halves begin at columns `left` and `right`. A lookup takes bytes from 16 of its own half: two of them
-    // reach 16 columns, and what is not in one is 0 there.
+    // Colours at the taps of the lanes `wanted`, of which the lower half begin at column `left`, the others at `right`.
+    // False, and nothing read, when they do not lie in two rows from first_y on and 16 columns each, with their right
+    // and lower neighbours. A lookup takes bytes from 16 of its own half: two of them reach 16 columns, and what is not
+    // in one is 0 there.
     template <class M>
     [[nodiscard]] HWY_INLINE bool read_halves(const Taps& taps, M wanted, int left, int right, int first_y,
                                               LinearColours& colours) const {
@@ -249,6 +251,8 @@ private:
 #endif
 
 #if LW_HAS_WIDE_LOOKUPS
+    // Colours at the taps of the lanes `wanted`. False, and nothing read, when they do not lie in two rows and one
+    // vector's stretch of columns from (first_x, first_y) on, with their right and lower neighbours.
     template <class M>
     [[nodiscard]] HWY_INLINE bool read_wide(const Taps& taps, M wanted, int first_x, int first_y,
                                             LinearColours& colours) const {

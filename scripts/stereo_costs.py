@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
-"""The table of costs in docs/stereo.md from runs of lw_bench_stereo --benchmark_format=json.
+"""The tables of costs and of views in docs/stereo.md from runs of lw_bench_stereo --benchmark_format=json.
 
 stereo_costs.py RUN.json ... PAGE.md: medians of the runs, and of ratios what they lie between, go between the markers
-<!-- costs begin --> and <!-- costs end -->.
+<!-- costs begin --> and <!-- costs end -->; what the views show, which is the same in all, between <!-- views begin -->
+and <!-- views end -->.
 """
 
 import json
@@ -10,7 +11,8 @@ import pathlib
 import statistics
 import sys
 
-BEGIN, END = "<!-- costs begin -->", "<!-- costs end -->"
+from page_tables import replaced
+
 COLUMNS = {
     "`splat`": "stereo/splat/layers:1",
     "`splat`, `--layers 2`": "stereo/splat/layers:2",
@@ -32,6 +34,11 @@ ROWS = [
      ["cpu_app_ratio"], 3),
     ("the same over two renders and two warps alone", ["cpu_app_ratio_unprepared"], 3),
 ]
+VIEWS = {
+    "midway, the eyes' field of view": "centre/midway_without_margin",
+    "midway with margin": "centre/midway",
+    "3.2 cm back": "centre/back",
+}
 
 
 def cell(runs, name, counters, digits):
@@ -45,21 +52,30 @@ def cell(runs, name, counters, digits):
     return f"{medians} ({text(min(values[0]))} to {text(max(values[0]))})"
 
 
+def cost_lines(runs):
+    lines = ["| | " + " | ".join(COLUMNS) + " |", "|---" * (len(COLUMNS) + 1) + "|"]
+    for title, counters, digits in ROWS:
+        cells = [cell(runs, name, counters, digits) for name in COLUMNS.values()]
+        lines.append(f"| {title} | " + " | ".join(cells) + " |")
+    return lines
+
+
+def view_lines(run):
+    lines = ["| the view | pixels of an eye's | holes before fill | SSIM to the eye's own render |", "|---|---|---|---|"]
+    for title, name in VIEWS.items():
+        seen = run[name]
+        lines.append(f"| {title} | {seen['pixels_ratio']:.2f} | {100 * seen['holes']:.2f} % | {seen['ssim']:.3f} |")
+    return lines
+
+
 def main():
     *reports, page = map(pathlib.Path, sys.argv[1:])
     runs = []
     for report in reports:
         benchmarks = json.loads(report.read_text())["benchmarks"]
         runs.append({benchmark["name"].split("/iterations")[0]: benchmark for benchmark in benchmarks})
-    lines = ["| | " + " | ".join(COLUMNS) + " |", "|---" * (len(COLUMNS) + 1) + "|"]
-    for title, counters, digits in ROWS:
-        cells = [cell(runs, name, counters, digits) for name in COLUMNS.values()]
-        lines.append(f"| {title} | " + " | ".join(cells) + " |")
-    before, begin, rest = page.read_text().partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not (begin and end):
-        sys.exit(f"stereo_costs: error: no markers {BEGIN} and {END} in {page}")
-    page.write_text("\n".join([before + BEGIN, *lines, END + after]))
+    text = replaced(page.read_text(), "costs", cost_lines(runs))
+    page.write_text(replaced(text, "views", view_lines(runs[0])))
 
 
 if __name__ == "__main__":

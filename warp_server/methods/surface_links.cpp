@@ -87,7 +87,7 @@ void link_row(const PaddedRow& above, const PaddedRow& here, const PaddedRow& be
             return hn::IfThenElse(same, hn::LoadU(d, row.depth.data() + at + offset), hn::Set(d, -1.0F));
         };
         const auto own = hn::LoadU(d, here.depth.data() + at);
-        // Sky, and what stands square: most vectors of many pictures need no more than this.
+        // Sky, and what faces the eye squarely, needs no more than this.
         const auto is_own = [&](const PaddedRow& row, std::ptrdiff_t offset) {
             const auto same_id = hn::Eq(hn::LoadU(di, row.id.data() + at + offset), id);
             return hn::And(hn::RebindMask(d, same_id), hn::Eq(hn::LoadU(d, row.depth.data() + at + offset), own));

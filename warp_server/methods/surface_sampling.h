@@ -372,7 +372,8 @@ private:
         const __m512 high = _mm512_load_ps(table.data() + 16);
         return VF{_mm512_permutex2var_ps(low, _mm512_add_epi32(entry.raw, _mm512_set1_epi32(2)), high)};
 #elif HWY_TARGET == HWY_AVX2
-        // A lookup takes the lowest three bits, the next two choose among four of them: gathers take twice as long.
+        // A lookup takes the lowest three bits, the next two choose among four of them. With gathers instead `surface`
+        // took a fifth longer.
         const __m256i at = _mm256_add_epi32(entry.raw, _mm256_set1_epi32(2));
         const auto eight = [&](int first) {
             return _mm256_permutevar8x32_ps(_mm256_load_ps(table.data() + first), at);

@@ -74,8 +74,8 @@ TEST(SurfaceLattice, HoldsPixelsAtTheirCentresAndMeansOfTheirQuartersBetween) {
     fill(quarters);
     const LinearImage pixels{colour};
     const LinearImage fine{quarters};
-    const LinearImage lattice = lattice_between(pixels, LinearImage{quarters});
-    ASSERT_EQ(lattice.size_px(), glm::ivec2(6, 4));
+    const ColourLattice lattice{pixels, fine};
+    ASSERT_EQ(lattice.size(), glm::ivec2(6, 4));
     for (int channel = 0; channel < 3; ++channel) {
         for (int y = 0; y < 4; ++y) {
             for (int x = 0; x < 6; ++x) {
@@ -84,11 +84,28 @@ TEST(SurfaceLattice, HoldsPixelsAtTheirCentresAndMeansOfTheirQuartersBetween) {
                 const int sum = fine.row(y, channel)[x] + fine.row(y, channel)[right] + fine.row(below, channel)[x] +
                                 fine.row(below, channel)[right];
                 const bool is_pixel = x % 2 == 0 && y % 2 == 0;
+                const int value = lattice.node(x, y)[channel];
                 if (is_pixel) {
-                    EXPECT_EQ(lattice.row(y, channel)[x], pixels.row(y / 2, channel)[x / 2]) << x << ", " << y;
+                    EXPECT_EQ(value, pixels.row(y / 2, channel)[x / 2]) << x << ", " << y;
                 } else {  // a mean of two means, each rounded up
-                    EXPECT_NEAR(lattice.row(y, channel)[x], 0.25 * sum, 1.0) << x << ", " << y;
+                    EXPECT_NEAR(value, 0.25 * sum, 1.0) << x << ", " << y;
                 }
+            }
+        }
+    }
+}
+
+TEST(SurfaceLattice, RepeatsItsOutermostNodesAroundIt) {
+    const LinearImage pixels{ColourImage{{3, 2}, {10, 20, 30, 255}}};
+    ColourImage quarters{{6, 4}};
+    for (std::size_t i = 0; i < quarters.pixels().size(); ++i)
+        quarters.pixels()[i].g = static_cast<std::uint8_t>(9 * i);
+    const ColourLattice lattice{pixels, LinearImage{quarters}};
+    for (int y = -1; y < 4 + 2; ++y) {
+        for (int x = -1; x < 6 + 2; ++x) {
+            const std::uint16_t* inside = lattice.node(std::clamp(x, 0, 5), std::clamp(y, 0, 3));
+            for (int channel = 0; channel < ColourLattice::kChannels; ++channel) {
+                EXPECT_EQ(lattice.node(x, y)[channel], inside[channel]) << x << ", " << y;
             }
         }
     }

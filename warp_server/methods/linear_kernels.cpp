@@ -104,10 +104,10 @@ void linearise_here(const ColourImage& image, const std::array<std::uint16_t, 25
 std::uint16_t rounded_mean(unsigned a, unsigned b) { return static_cast<std::uint16_t>((a + b + 1U) / 2U); }
 
 // As many columns as fill vectors, but for the last one; returns how many.
-std::size_t average_many(std::uint16_t* row, const std::uint16_t* below, std::size_t count,
-                         const std::uint16_t* pixels) {
+std::size_t average_many(LinearRow row, LinearRow below, std::size_t count, LinearRow pixels, std::uint16_t* nodes) {
 #if HWY_TARGET == HWY_SCALAR
     static_cast<void>(row), static_cast<void>(below), static_cast<void>(count), static_cast<void>(pixels);
+    static_cast<void>(nodes);
     return 0;
 #else
     const hn::ScalableTag<std::uint16_t> d;
@@ -116,24 +116,35 @@ std::size_t average_many(std::uint16_t* row, const std::uint16_t* below, std::si
     const std::size_t lanes = hn::Lanes(d);
     std::size_t x = 0;
     for (; x + lanes < count; x += lanes) {
-        const auto left = hn::AverageRound(hn::LoadU(d, row + x), hn::LoadU(d, below + x));
-        const auto right = hn::AverageRound(hn::LoadU(d, row + x + 1), hn::LoadU(d, below + x + 1));
-        auto mean = hn::AverageRound(left, right);
-        if (pixels != nullptr) {
-            mean = hn::OddEven(mean, hn::BitCast(d, hn::PromoteTo(pair, hn::LoadU(half, pixels + x / 2))));
-        }
-        hn::StoreU(mean, d, row + x);
+        const auto channel = [&](std::ptrdiff_t index) LW_INLINE_LAMBDA {
+            const std::uint16_t* upper = row.first + index * row.channel_stride + x;
+            const std::uint16_t* lower = below.first + index * below.channel_stride + x;
+            const auto left = hn::AverageRound(hn::LoadU(d, upper), hn::LoadU(d, lower));
+            const auto right = hn::AverageRound(hn::LoadU(d, upper + 1), hn::LoadU(d, lower + 1));
+            const auto mean = hn::AverageRound(left, right);
+            if (pixels.first == nullptr) return mean;
+            const auto at_centres = hn::LoadU(half, pixels.first + index * pixels.channel_stride + x / 2);
+            return hn::OddEven(mean, hn::BitCast(d, hn::PromoteTo(pair, at_centres)));
+        };
+        hn::StoreInterleaved4(channel(0), channel(1), channel(2), hn::Zero(d), d, nodes + 4 * x);
     }
     return x;
 #endif
 }
 
-void average_quarters_here(std::uint16_t* row, const std::uint16_t* below, std::size_t count,
-                           const std::uint16_t* pixels) {
-    for (std::size_t x = average_many(row, below, count, pixels); x < count; ++x) {
+void average_quarters_here(LinearRow row, LinearRow below, std::size_t count, LinearRow pixels, std::uint16_t* nodes) {
+    for (std::size_t x = average_many(row, below, count, pixels, nodes); x < count; ++x) {
         const std::size_t right = std::min(x + 1, count - 1);
-        const std::uint16_t mean = rounded_mean(rounded_mean(row[x], below[x]), rounded_mean(row[right], below[right]));
-        row[x] = pixels != nullptr && x % 2 == 0 ? pixels[x / 2] : mean;
+        for (std::ptrdiff_t channel = 0; channel < 3; ++channel) {
+            const std::uint16_t* upper = row.first + channel * row.channel_stride;
+            const std::uint16_t* lower = below.first + channel * below.channel_stride;
+            const std::uint16_t mean =
+                rounded_mean(rounded_mean(upper[x], lower[x]), rounded_mean(upper[right], lower[right]));
+            const bool is_centre = pixels.first != nullptr && x % 2 == 0;
+            nodes[4 * x + static_cast<std::size_t>(channel)] =
+                is_centre ? pixels.first[channel * pixels.channel_stride + static_cast<std::ptrdiff_t>(x / 2)] : mean;
+        }
+        nodes[4 * x + 3] = 0;
     }
 }
 
@@ -152,8 +163,8 @@ void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& l
     HWY_DYNAMIC_DISPATCH(linearise_here)(image, linear, alpha, out);
 }
 
-void average_quarters(std::uint16_t* row, const std::uint16_t* below, std::size_t count, const std::uint16_t* pixels) {
-    HWY_DYNAMIC_DISPATCH(average_quarters_here)(row, below, count, pixels);
+void average_quarters(LinearRow row, LinearRow below, std::size_t count, LinearRow pixels, std::uint16_t* nodes) {
+    HWY_DYNAMIC_DISPATCH(average_quarters_here)(row, below, count, pixels, nodes);
 }
 
 }  // namespace lw

@@ -22,10 +22,17 @@ struct LinearRows {
 void linearise(const ColourImage& image, const std::array<std::uint16_t, 256>& linear, LinearAlpha alpha,
                LinearRows out);
 
-/// In place, means of 2x2 values: of columns x and x + 1 of `row` and of the row `below` it, a mean of two means, each
-/// rounded up. The last column counts twice. Where `pixels` is not null, every second value from the first on becomes
-/// the next of `pixels` instead. Any thread.
+/// One row of an image with three channels.
+struct LinearRow {
+    const std::uint16_t* first = nullptr;
+    std::ptrdiff_t channel_stride = 0;
+};
+
+/// Means of 2x2 values: of columns x and x + 1 of `row` and of the row `below` it, a mean of two means, each rounded
+/// up. The last column counts twice. Where `pixels` is not null, every second value from the first on becomes the next
+/// of `pixels` instead. Any thread.
 /// @param count  of columns: at least 1, even
-void average_quarters(std::uint16_t* row, const std::uint16_t* below, std::size_t count, const std::uint16_t* pixels);
+/// @param nodes  `count` times red, green, blue and 0
+void average_quarters(LinearRow row, LinearRow below, std::size_t count, LinearRow pixels, std::uint16_t* nodes);
 
 }  // namespace lw

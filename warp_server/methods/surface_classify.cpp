@@ -13,7 +13,6 @@
 #include "warp_server/methods/object_matrices.h"
 #include "warp_server/methods/surface_costs.h"
 #include "warp_server/methods/surface_edge_lattice.h"
-#include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_links.h"
 #include "warp_server/methods/surface_shares.h"
 #include "warp_server/methods/surface_tiles.h"
@@ -243,7 +242,7 @@ void make_lattices(const SurfaceLinks& links, Colours&& colours, PreparedSurface
             make_edge_lattices(parts, prepared);
             parts.join_for_lattice();
         }
-        prepared.lattice = lattice_between(prepared.linear, std::move(colours.quarters));
+        prepared.lattice = ColourLattice{prepared.linear, colours.quarters};
     }
     if (prepared.linear.has_alpha()) halve_lacks_of_thin_things(links, prepared.linear);
 }

@@ -11,6 +11,7 @@
 #include "warp_server/methods/id_counts.h"
 #include "warp_server/methods/linear_colour.h"
 #include "warp_server/methods/surface_bounds.h"
+#include "warp_server/methods/surface_lattice.h"
 
 namespace lw {
 
@@ -74,7 +75,7 @@ struct PreparedSurface final : PreparedLayer {
     std::vector<SurfaceRegion> regions;        ///< in the order of the lists: each begins where the one before ends
     std::vector<RegionBounds> bounds;          ///< of each
     std::vector<float> region_costs;           ///< of each: estimated, of drawing it (surface_costs.h)
-    LinearImage lattice;                       ///< with colours between pixels (lattice_between), or empty
+    ColourLattice lattice;                     ///< colours between pixels, or empty
     std::vector<std::uint16_t> edge_lattices;  ///< by edge cells' numbers (surface_edge_lattice.h), or empty
     LinearImage linear;                        ///< with the pixels' shares as alpha, where they are known
     std::vector<IdCount> id_counts;            ///< by ascending id

@@ -12,9 +12,9 @@
 
 #include "warp_server/methods/lanes.h"
 #include "warp_server/methods/surface_fragment_queue.h"
-#include "warp_server/methods/surface_lattice.h"
 #include "warp_server/methods/surface_placing.h"
 #include "warp_server/methods/surface_queues.h"
+#include "warp_server/methods/surface_reader.h"
 #include "warp_server/methods/surface_sampling.h"
 #include "warp_server/methods/surface_solving.h"
 #include "warp_server/methods/surface_tolerances.h"
@@ -81,11 +81,10 @@ public:
     Painter(const PatchInput& input, SurfaceCanvas& canvas, std::vector<std::uint32_t>& behind)
         : input_{input},
           behind_{behind},
-          corner_reader_{input.prepared->linear},
-          reader_{has_lattice(input) ? ColourReader{input.prepared->lattice, kLatticeSteps} : corner_reader_},
+          reader_{input.prepared->linear, has_lattice(input) ? &input.prepared->lattice : nullptr},
           runs_{reader_, encoder_, canvas.frame()},
           queue_{reader_, encoder_, runs_, canvas.frame()},
-          fragments_{corner_reader_, edge_lattices(input), input.prepared->size_px, canvas},
+          fragments_{reader_.pixels(), edge_lattices(input), input.prepared->size_px, canvas},
           target_width_{canvas.frame().depth.width()},
           band_{target_width_, canvas.frame().depth.height(), canvas.band()},
           skips_{canvas.skips()},
@@ -134,7 +133,7 @@ private:
     static constexpr std::size_t kTilesAhead = 16;
 
     [[nodiscard]] static bool has_lattice(const PatchInput& input) {
-        return input.between_pixels && input.prepared->lattice.size_px().x > 0;
+        return input.between_pixels && !input.prepared->lattice.empty();
     }
 
     [[nodiscard]] static const std::uint16_t* edge_lattices(const PatchInput& input) {
@@ -453,8 +452,7 @@ private:
 
     const PatchInput& input_;
     std::vector<std::uint32_t>& behind_;
-    ColourReader corner_reader_;  // where surfaces meet: of pixels alone
-    ColourReader reader_;
+    SurfaceReader reader_;
     ColourEncoder encoder_;
     RunQueue runs_;
     PixelQueue queue_;

@@ -1,29 +1,34 @@
 #include "warp_server/methods/surface_lattice.h"
 
-#include <cstddef>
-#include <vector>
+#include <algorithm>
 
 #include "warp_server/methods/linear_kernels.h"
 
 namespace lw {
+namespace {
 
-LinearImage lattice_between(const LinearImage& linear, LinearImage quarters) {
-    LinearImage& lattice = quarters;
-    const glm::ivec2 size = lattice.size_px();
-    const auto columns = static_cast<std::size_t>(size.x);
-    std::vector<std::uint16_t> last_row;  // below it, it counts again
-    for (int y = 0; y < size.y; ++y) {
-        for (int channel = 0; channel < 3; ++channel) {
-            std::uint16_t* row = lattice.row(y, channel);
-            const bool is_last = y + 1 == size.y;
-            if (is_last) last_row.assign(row, row + size.x);
-            // Pixels' centres hold the pixels exactly, for what does not move.
-            const bool has_centres = y % kLatticeSteps == 0;
-            average_quarters(row, is_last ? last_row.data() : lattice.row(y + 1, channel), columns,
-                             has_centres ? linear.row(y / kLatticeSteps, channel) : nullptr);
-        }
+LinearRow row_of(const LinearImage& image, int y) { return {image.row(y, 0), image.channel_stride()}; }
+
+}  // namespace
+
+ColourLattice::ColourLattice(const LinearImage& linear, const LinearImage& quarters) : size_{quarters.size_px()} {
+    const auto columns = static_cast<std::size_t>(size_.x);
+    const std::ptrdiff_t stride = row_stride();
+    values_ = std::make_unique_for_overwrite<std::uint16_t[]>(static_cast<std::size_t>(stride * (size_.y + kRim)));
+    const auto stored_row = [&](int y) { return values_.get() + (y + 1) * stride; };
+    for (int y = 0; y < size_.y; ++y) {
+        std::uint16_t* first = stored_row(y) + kChannels;
+        const LinearRow below = row_of(quarters, std::min(y + 1, size_.y - 1));
+        // Pixels' centres hold the pixels exactly, for what does not move.
+        const bool has_centres = y % kLatticeSteps == 0;
+        average_quarters(row_of(quarters, y), below, columns,
+                         has_centres ? row_of(linear, y / kLatticeSteps) : LinearRow{}, first);
+        std::uint16_t* last = first + kChannels * (size_.x - 1);
+        std::copy_n(first, kChannels, first - kChannels);
+        for (int i = 1; i < kRim; ++i) std::copy_n(last, kChannels, last + i * kChannels);
     }
-    return quarters;
+    std::copy_n(stored_row(0), stride, stored_row(-1));
+    for (int i = 0; i < kRim - 1; ++i) std::copy_n(stored_row(size_.y - 1), stride, stored_row(size_.y + i));
 }
 
 }  // namespace lw

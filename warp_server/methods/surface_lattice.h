@@ -1,6 +1,11 @@
 #pragma once
 /// Colours between pixels for `surface`: what a pixel would show whose centre lay half a pixel further.
 
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+
 #include "warp_server/methods/linear_colour.h"
 
 namespace lw {
@@ -12,10 +17,37 @@ inline constexpr int kLatticeSteps = 2;
 /// whose quarters are known, the mean over the same area anywhere between them is known too: this picture holds it at
 /// each pixel's centre, where it is the pixel, and half a pixel to the right, below and both. Where neighbours are of
 /// different surfaces what lies between them is of none; nobody reads there.
-/// @param linear    of w x h pixels
-/// @param quarters  their quarters (CpuPixels), 2w x 2h, becomes the result
-/// @return 2w x 2h values without alpha, the first one at the centre of the first pixel
-/// Pure, any thread.
-[[nodiscard]] LinearImage lattice_between(const LinearImage& linear, LinearImage quarters);
+///
+/// The channels of a node lie together, so that one read takes a stretch of nodes in all of them, wherever it is.
+/// Around the picture its outermost nodes count again: a read of kReadNodes nodes and rows from `before(node)` on stays
+/// inside.
+class ColourLattice {
+public:
+    static constexpr int kChannels = 4;   ///< red, green and blue of linear light in 15 bits, and 0
+    static constexpr int kReadNodes = 4;  ///< of which a cubic read lies between the second and the third
+
+    ColourLattice() = default;
+    /// @param linear    of w x h pixels
+    /// @param quarters  their quarters (CpuPixels), 2w x 2h
+    ColourLattice(const LinearImage& linear, const LinearImage& quarters);
+
+    [[nodiscard]] bool empty() const { return values_ == nullptr; }
+    /// In nodes, two for each pixel and axis; the first one lies at the centre of the first pixel.
+    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    /// Values from one row of nodes to the next.
+    [[nodiscard]] std::ptrdiff_t row_stride() const { return std::ptrdiff_t{kChannels} * (size_.x + kRim); }
+    /// The node left of and above node (x, y), which may be in the rim.
+    [[nodiscard]] const std::uint16_t* before(int x, int y) const {
+        return values_.get() + y * row_stride() + std::ptrdiff_t{kChannels} * x;
+    }
+    /// kChannels values.
+    [[nodiscard]] const std::uint16_t* node(int x, int y) const { return before(x + 1, y + 1); }
+
+private:
+    static constexpr int kRim = kReadNodes - 1;  // one node before, the others behind
+
+    glm::ivec2 size_{0};
+    std::unique_ptr<std::uint16_t[]> values_;
+};
 
 }  // namespace lw

@@ -15,6 +15,7 @@
 #include <cstdint>
 
 #include "warp_server/methods/lanes.h"
+#include "warp_server/methods/surface_reader.h"
 #include "warp_server/methods/surface_sampling.h"
 #include "warp_server/warp_method.h"
 
@@ -37,7 +38,7 @@ HWY_INLINE void append_lanes(D d, hn::VFromD<D> values, M wanted, T* to) {
 /// after the other; many runs in turn wait for none.
 class RunQueue {
 public:
-    RunQueue(const ColourReader& reader, const ColourEncoder& encoder, DisplayFrame& out)
+    RunQueue(const SurfaceReader& reader, const ColourEncoder& encoder, DisplayFrame& out)
         : reader_{reader}, encoder_{encoder}, colours_{reinterpret_cast<std::uint32_t*>(out.colour.pixels().data())} {}
 
     /// The lanes whose bits are in `wanted`, of the pixels from number `pixel` on, show the source at the taps. Those
@@ -96,7 +97,7 @@ private:
         hn::Store(linear.blue, DU{}, run.blue);
     }
 
-    const ColourReader& reader_;
+    const SurfaceReader& reader_;
     const ColourEncoder& encoder_;
     std::uint32_t* colours_;
     std::size_t count_ = 0;
@@ -107,7 +108,7 @@ private:
 class PixelQueue {
 public:
     /// What is in `runs` is shown first.
-    PixelQueue(const ColourReader& reader, const ColourEncoder& encoder, RunQueue& runs, DisplayFrame& out)
+    PixelQueue(const SurfaceReader& reader, const ColourEncoder& encoder, RunQueue& runs, DisplayFrame& out)
         : reader_{reader},
           encoder_{encoder},
           runs_{runs},
@@ -138,8 +139,9 @@ public:
         HWY_ALIGN std::uint32_t colours[kMaxLanes];
         for (std::size_t i = 0; i < count_; i += lanes) {
             const Taps taps = reader_.taps_of(hn::Load(DF{}, x_ + i), hn::Load(DF{}, y_ + i));
-            hn::Store(encoder_.encoded(read(taps)), DU{}, colours);
+            // Pixels that follow each other mostly come from one tile or one row of cells.
             const std::size_t end = std::min(lanes, count_ - i);
+            hn::Store(encoder_.encoded(reader_.read_some(taps, end)), DU{}, colours);
             for (std::size_t lane = 0; lane < end; ++lane) {
                 const auto pixel = static_cast<std::size_t>(pixel_[i + lane]);
                 // Without branches, which nothing could predict.
@@ -163,18 +165,6 @@ private:
         reader_.prefetch(hn::ExtractLane(x, kLane), hn::ExtractLane(y, kLane));
     }
 
-    // Pixels that follow each other mostly come from one tile or one row of cells.
-    [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps) const {
-#if LW_HAS_WIDE_LOOKUPS
-        LinearColours near;
-        const auto all = hn::Eq(taps.x, taps.x);
-        if (reader_.read_near(taps, hn::RebindMask(DU{}, all), hn::GetLane(taps.x), hn::GetLane(taps.y), near)) {
-            return near;
-        }
-#endif
-        return reader_.read(taps);
-    }
-
     // Grows with the depth, then with the colour. Depths are >= 0, or negative where nothing is shown; as whole numbers
     // they are in the same order, but for -0.
     [[nodiscard]] static HWY_INLINE std::int64_t key_of(float depth, std::uint32_t colour) {
@@ -182,7 +172,7 @@ private:
         return static_cast<std::int64_t>(high << 32U | colour);
     }
 
-    const ColourReader& reader_;
+    const SurfaceReader& reader_;
     const ColourEncoder& encoder_;
     RunQueue& runs_;
     float* depths_;

@@ -26,6 +26,36 @@ struct Taps {
     hn::VFromD<DI> fy;
 };
 
+/// Says where that is.
+class TapGrid {
+public:
+    /// Of a picture of this size that has `steps` values from one pixel's centre to the next.
+    TapGrid(glm::ivec2 size_px, int steps)
+        : scale_{32768.0F * static_cast<float>(steps)},
+          last_{static_cast<float>(size_px.x - 1), static_cast<float>(size_px.y - 1)} {}
+
+    /// Taps at x, y: pixels from the centre of the first pixel; clamped to the image.
+    [[nodiscard]] HWY_INLINE Taps at(VF x_px, VF y_px) const {
+        // Whole pixels and fraction at once: a coordinate below 2^14 times 2^15 is exact in both number formats.
+        const auto fixed = [this](VF place, float last) {
+            const VF within = hn::Min(hn::Max(place, hn::Zero(DF{})), hn::Set(DF{}, last));
+            return truncated(hn::Mul(within, hn::Set(DF{}, scale_)));
+        };
+        const auto fraction = hn::Set(DI{}, 32767);
+        const auto x = fixed(x_px, last_[0]);
+        const auto y = fixed(y_px, last_[1]);
+        return {hn::ShiftRight<15>(x), hn::ShiftRight<15>(y), hn::And(x, fraction), hn::And(y, fraction)};
+    }
+
+    [[nodiscard]] HWY_INLINE bool contains(float x_px, float y_px) const {
+        return x_px >= 0.0F && x_px <= last_[0] && y_px >= 0.0F && y_px <= last_[1];
+    }
+
+private:
+    float scale_;
+    std::array<float, 2> last_;  // pixel
+};
+
 /// 15-bit channels of Lanes(DF) pixels.
 struct LinearColours {
     hn::VFromD<DU> red;
@@ -44,35 +74,23 @@ inline constexpr int kShareChannel = 3;
 /// Reads one source image.
 class ColourReader {
 public:
-    /// `image` outlives this. It holds `steps` values from one pixel's centre to the next, 1 or 2.
-    explicit ColourReader(const LinearImage& image, int steps = 1)
+    /// `image` outlives this.
+    explicit ColourReader(const LinearImage& image)
         : values_{image.data()},
           has_shares_{image.has_alpha()},
           channel_stride_{image.channel_stride()},
           row_stride_{image.row_stride()},
-          steps_{static_cast<float>(steps)},
-          last_{static_cast<float>(image.size_px().x / steps - 1), static_cast<float>(image.size_px().y / steps - 1)} {}
+          taps_{image.size_px(), 1} {}
 
     /// Taps at x, y: pixels from the centre of the first pixel; clamped to the image.
-    [[nodiscard]] HWY_INLINE Taps taps_of(VF x_px, VF y_px) const {
-        // Whole pixels and fraction at once: a coordinate below 2^14 times 2^15 is exact in both number formats.
-        const auto fixed = [this](VF place, float last) {
-            const VF within = hn::Min(hn::Max(place, hn::Zero(DF{})), hn::Set(DF{}, last));
-            return truncated(hn::Mul(within, hn::Set(DF{}, 32768.0F * steps_)));
-        };
-        const auto fraction = hn::Set(DI{}, 32767);
-        const auto x = fixed(x_px, last_[0]);
-        const auto y = fixed(y_px, last_[1]);
-        return {hn::ShiftRight<15>(x), hn::ShiftRight<15>(y), hn::And(x, fraction), hn::And(y, fraction)};
-    }
+    [[nodiscard]] HWY_INLINE Taps taps_of(VF x_px, VF y_px) const { return taps_.at(x_px, y_px); }
 
     /// Asks for the pixels below x, y, as taps_of has them; any values.
     HWY_INLINE void prefetch(float x_px, float y_px) const {
-        const bool inside = x_px >= 0.0F && x_px <= last_[0] && y_px >= 0.0F && y_px <= last_[1];
-        if (!inside) return;
-        const std::uint16_t* row = values_ + (static_cast<std::ptrdiff_t>(y_px * steps_) + 1) * row_stride_;
+        if (!taps_.contains(x_px, y_px)) return;
+        const std::uint16_t* row = values_ + (static_cast<std::ptrdiff_t>(y_px) + 1) * row_stride_;
         for (std::ptrdiff_t channel = 0; channel < 3; ++channel) {
-            __builtin_prefetch(row + channel * channel_stride_ + static_cast<std::ptrdiff_t>(x_px * steps_));
+            __builtin_prefetch(row + channel * channel_stride_ + static_cast<std::ptrdiff_t>(x_px));
         }
     }
 
@@ -337,8 +355,7 @@ private:
     bool has_shares_;
     std::ptrdiff_t channel_stride_;
     std::ptrdiff_t row_stride_;
-    float steps_;
-    std::array<float, 2> last_;  // pixel
+    TapGrid taps_;
 };
 
 /// Encodes linear light as sRGB.

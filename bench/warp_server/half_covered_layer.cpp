@@ -81,6 +81,16 @@ Layer half_covered_layer(glm::ivec2 size_px, int movers) {
     return layer;
 }
 
+Layer with_quarters(Layer layer) {
+    CpuPixels& pixels = layer.cpu();
+    pixels.alpha_is_share = true;
+    pixels.quarters = ColourImage{2 * pixels.colour.size_px()};
+    for (int y = 0; y < pixels.quarters.height(); ++y) {
+        for (int x = 0; x < pixels.quarters.width(); ++x) pixels.quarters.at(x, y) = pixels.colour.at(x / 2, y / 2);
+    }
+    return layer;
+}
+
 Camera moved_head(const Camera& source) {
     Camera target = source;
     const glm::dquat turn = glm::angleAxis(0.02, glm::normalize(glm::dvec3{0.3, 1.0, 0.1}));

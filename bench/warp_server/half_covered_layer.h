@@ -11,6 +11,9 @@ namespace lw::bench {
 /// box is one plane facing the camera with edges to the ground. Half of the pixels are background. Deterministic.
 [[nodiscard]] Layer half_covered_layer(glm::ivec2 size_px, int movers);
 
+/// Adds quarters (CpuPixels::quarters) that look like their pixels.
+[[nodiscard]] Layer with_quarters(Layer layer);
+
 /// A head that moved 2 cm and turned by 1.2 degrees, what a 100 ms old frame has to make up for.
 [[nodiscard]] Camera moved_head(const Camera& source);
 

@@ -29,13 +29,21 @@ constexpr glm::ivec2 kSize_px{1024, 1024};
 constexpr int kMovers = 1000;
 constexpr std::size_t kFrames = 4;
 
+// Of several samples per pixel a frame holds the quarters too.
+enum class SourceSamples { one, several };
+
 // The same picture in different memory.
+std::vector<Layer> make_layers(SourceSamples samples) {
+    std::vector<Layer> all;
+    for (std::size_t i = 0; i < kFrames; ++i) {
+        Layer layer = half_covered_layer(kSize_px, kMovers);
+        all.push_back(samples == SourceSamples::one ? std::move(layer) : with_quarters(std::move(layer)));
+    }
+    return all;
+}
+
 const std::vector<Layer>& layers() {
-    static const std::vector<Layer> made = [] {
-        std::vector<Layer> all;
-        for (std::size_t i = 0; i < kFrames; ++i) all.push_back(half_covered_layer(kSize_px, kMovers));
-        return all;
-    }();
+    static const std::vector<Layer> made = make_layers(SourceSamples::one);
     return made;
 }
 
@@ -109,13 +117,12 @@ Camera turned_head(const Camera& source, double degrees) {
     return camera;
 }
 
-void warp(benchmark::State& state, const std::string& specification, const Camera& camera) {
+void warp(benchmark::State& state, const std::string& specification, const Camera& camera,
+          SourceSamples samples = SourceSamples::one) {
     const auto method = checked_method(specification);
-    std::vector<Layer> prepared;
-    for (std::size_t i = 0; i < kFrames; ++i) {
-        prepared.push_back(half_covered_layer(kSize_px, kMovers));
-        if (auto ready = method->prepare(prepared[i]))
-            prepared[i].prepared.emplace_back(specification, std::move(ready));
+    std::vector<Layer> prepared = make_layers(samples);
+    for (Layer& layer : prepared) {
+        if (auto ready = method->prepare(layer)) layer.prepared.emplace_back(specification, std::move(ready));
     }
     const std::vector<ObjectTransform> movers = moved_objects(prepared[0]);
     DisplayFrame frames[2];
@@ -130,20 +137,20 @@ void with_avx2(const std::function<void()>& work) {
     hwy::SetSupportedTargetsForTest(0);
 }
 
-void prepare(benchmark::State& state, const std::string& specification) {
+void prepare(benchmark::State& state, const std::string& specification, SourceSamples samples = SourceSamples::one) {
     const auto method = checked_method(specification);
-    measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(method->prepare(layers()[i])); });
+    const std::vector<Layer> sources = make_layers(samples);
+    measure(state, [&](std::size_t i) { benchmark::DoNotOptimize(method->prepare(sources[i])); });
 }
 
 // One and two threads in turns: what disturbs the machine disturbs both.
 void two_threads(benchmark::State& state, const std::string& name) {
     const std::unique_ptr<WarpMethod> methods[2] = {checked_method(name), checked_method(name + ":threads=2")};
-    std::vector<Layer> prepared;
-    for (std::size_t i = 0; i < kFrames; ++i) {
-        prepared.push_back(half_covered_layer(kSize_px, kMovers));
+    std::vector<Layer> prepared = make_layers(SourceSamples::one);
+    for (Layer& layer : prepared) {
         for (const auto& method : methods) {
-            if (auto ready = method->prepare(prepared[i])) {
-                prepared[i].prepared.emplace_back(std::string{method->label()}, std::move(ready));
+            if (auto ready = method->prepare(layer)) {
+                layer.prepared.emplace_back(std::string{method->label()}, std::move(ready));
             }
         }
     }
@@ -213,6 +220,11 @@ void register_all() {
     for (const std::string name : {"splat", "surface", "surface:threads=2"}) {
         add("prepare/" + name, [name](benchmark::State& state) { prepare(state, name); });
     }
+    add("samples/warp/surface", [](benchmark::State& state) {
+        warp(state, "surface", moved_head(layers()[0].camera), SourceSamples::several);
+    });
+    add("samples/prepare/surface",
+        [](benchmark::State& state) { prepare(state, "surface", SourceSamples::several); });
     const auto newer_than_avx2 = hwy::SupportedTargets() & (HWY_AVX2 - 1);
     if (newer_than_avx2 != 0 && (hwy::SupportedTargets() & HWY_AVX2) != 0) {
         for (const std::string name : {"splat", "surface"}) {

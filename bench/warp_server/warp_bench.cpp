@@ -223,8 +223,7 @@ void register_all() {
     add("samples/warp/surface", [](benchmark::State& state) {
         warp(state, "surface", moved_head(layers()[0].camera), SourceSamples::several);
     });
-    add("samples/prepare/surface",
-        [](benchmark::State& state) { prepare(state, "surface", SourceSamples::several); });
+    add("samples/prepare/surface", [](benchmark::State& state) { prepare(state, "surface", SourceSamples::several); });
     const auto newer_than_avx2 = hwy::SupportedTargets() & (HWY_AVX2 - 1);
     if (newer_than_avx2 != 0 && (hwy::SupportedTargets() & HWY_AVX2) != 0) {
         for (const std::string name : {"splat", "surface"}) {

@@ -74,7 +74,7 @@ TEST(SurfaceLattice, HoldsPixelsAtTheirCentresAndMeansOfTheirQuartersBetween) {
     fill(quarters);
     const LinearImage pixels{colour};
     const LinearImage fine{quarters};
-    const ColourLattice lattice{pixels, fine};
+    const ColourLattice lattice{pixels, LinearImage{quarters}};
     ASSERT_EQ(lattice.size(), glm::ivec2(6, 4));
     for (int channel = 0; channel < 3; ++channel) {
         for (int y = 0; y < 4; ++y) {

@@ -126,7 +126,7 @@ std::size_t average_many(LinearRow row, LinearRow below, std::size_t count, Line
             const auto at_centres = hn::LoadU(half, pixels.first + index * pixels.channel_stride + x / 2);
             return hn::OddEven(mean, hn::BitCast(d, hn::PromoteTo(pair, at_centres)));
         };
-        hn::StoreInterleaved4(channel(0), channel(1), channel(2), hn::Zero(d), d, nodes + 4 * x);
+        hn::StoreInterleaved3(channel(0), channel(1), channel(2), d, nodes + 3 * x);
     }
     return x;
 #endif
@@ -141,10 +141,9 @@ void average_quarters_here(LinearRow row, LinearRow below, std::size_t count, Li
             const std::uint16_t mean =
                 rounded_mean(rounded_mean(upper[x], lower[x]), rounded_mean(upper[right], lower[right]));
             const bool is_centre = pixels.first != nullptr && x % 2 == 0;
-            nodes[4 * x + static_cast<std::size_t>(channel)] =
+            nodes[3 * x + static_cast<std::size_t>(channel)] =
                 is_centre ? pixels.first[channel * pixels.channel_stride + static_cast<std::ptrdiff_t>(x / 2)] : mean;
         }
-        nodes[4 * x + 3] = 0;
     }
 }
 

@@ -32,7 +32,7 @@ struct LinearRow {
 /// up. The last column counts twice. Where `pixels` is not null, every second value from the first on becomes the next
 /// of `pixels` instead. Any thread.
 /// @param count  of columns: at least 1, even
-/// @param nodes  `count` times red, green, blue and 0
+/// @param nodes  `count` times red, green and blue
 void average_quarters(LinearRow row, LinearRow below, std::size_t count, LinearRow pixels, std::uint16_t* nodes);
 
 }  // namespace lw

@@ -242,7 +242,7 @@ void make_lattices(const SurfaceLinks& links, Colours&& colours, PreparedSurface
             make_edge_lattices(parts, prepared);
             parts.join_for_lattice();
         }
-        prepared.lattice = ColourLattice{prepared.linear, colours.quarters};
+        prepared.lattice = ColourLattice{prepared.linear, std::move(colours.quarters)};
     }
     if (prepared.linear.has_alpha()) halve_lacks_of_thin_things(links, prepared.linear);
 }

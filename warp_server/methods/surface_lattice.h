@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <memory>
 
 #include "warp_server/methods/linear_colour.h"
 
@@ -20,34 +19,34 @@ inline constexpr int kLatticeSteps = 2;
 ///
 /// The channels of a node lie together, so that one read takes a stretch of nodes in all of them, wherever it is.
 /// Around the picture its outermost nodes count again: a read of kReadNodes nodes and rows from `before(node)` on stays
-/// inside.
+/// inside, and may take up to 4 values more of each row.
 class ColourLattice {
 public:
-    static constexpr int kChannels = 4;   ///< red, green and blue of linear light in 15 bits, and 0
+    static constexpr int kChannels = 3;   ///< red, green and blue of linear light in 15 bits
     static constexpr int kReadNodes = 4;  ///< of which a cubic read lies between the second and the third
 
     ColourLattice() = default;
     /// @param linear    of w x h pixels
-    /// @param quarters  their quarters (CpuPixels), 2w x 2h
-    ColourLattice(const LinearImage& linear, const LinearImage& quarters);
+    /// @param quarters  their quarters (CpuPixels), 2w x 2h, whose memory this takes
+    ColourLattice(const LinearImage& linear, LinearImage quarters);
 
-    [[nodiscard]] bool empty() const { return values_ == nullptr; }
     /// In nodes, two for each pixel and axis; the first one lies at the centre of the first pixel.
-    [[nodiscard]] glm::ivec2 size() const { return size_; }
+    [[nodiscard]] glm::ivec2 size() const { return rows_.size_px(); }
+    [[nodiscard]] bool empty() const { return size().x == 0; }
     /// Values from one row of nodes to the next.
-    [[nodiscard]] std::ptrdiff_t row_stride() const { return std::ptrdiff_t{kChannels} * (size_.x + kRim); }
+    [[nodiscard]] std::ptrdiff_t row_stride() const { return rows_.row_stride(); }
     /// The node left of and above node (x, y), which may be in the rim.
     [[nodiscard]] const std::uint16_t* before(int x, int y) const {
-        return values_.get() + y * row_stride() + std::ptrdiff_t{kChannels} * x;
+        return rows_.data() + y * row_stride() + std::ptrdiff_t{kChannels} * x;
     }
     /// kChannels values.
     [[nodiscard]] const std::uint16_t* node(int x, int y) const { return before(x + 1, y + 1); }
 
 private:
     static constexpr int kRim = kReadNodes - 1;  // one node before, the others behind
+    static_assert(kRim <= LinearImage::kSpareRows && kRim < LinearImage::kSpareColumns);
 
-    glm::ivec2 size_{0};
-    std::unique_ptr<std::uint16_t[]> values_;
+    LinearImage rows_;  // row y holds the nodes of row y - 1
 };
 
 }  // namespace lw

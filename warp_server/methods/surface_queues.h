@@ -54,7 +54,7 @@ public:
         hn::Store(taps.fx, DI{}, run.fx);
         hn::Store(taps.fy, DI{}, run.fy);
         // Where a tile begins, no run above has asked for these.
-        reader_.prefetch_row(hn::GetLane(taps.x), hn::GetLane(taps.y));
+        reader_.prefetch_run(hn::GetLane(taps.x), hn::GetLane(taps.y));
         if (count_ == kRuns) flush();
     }
 

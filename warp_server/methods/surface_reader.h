@@ -39,10 +39,10 @@ public:
         }
     }
 
-    /// Asks for what a vector of taps reads that begins in this column and row.
-    HWY_INLINE void prefetch_row(int column, int row) const {
+    /// Asks for what a run of taps wants soon that begins in this column and row.
+    HWY_INLINE void prefetch_run(int column, int row) const {
         if (lattice_) {
-            lattice_->prefetch_row(column, row);
+            lattice_->prefetch_below(column, row);
         } else {
             pixels_.prefetch_row(column, row);
         }
@@ -51,7 +51,7 @@ public:
     /// ColourReader::read_along.
     [[nodiscard]] HWY_INLINE LinearColours read_along(const Taps& taps, std::uint32_t wanted, const std::int32_t* x,
                                                       const std::int32_t* y) const {
-        return lattice_ ? lattice_->read_along(taps, wanted, x, y) : pixels_.read_along(taps, wanted, x, y);
+        return lattice_ ? lattice_->read(taps, wanted) : pixels_.read_along(taps, wanted, x, y);
     }
 
     /// Colours at the taps of the first `count` lanes, which mostly lie near each other, and anything at the others.

@@ -298,6 +298,7 @@ private:
         download(resolved_->colour, resolved_->depth, GL_RED, resolved_->object_id, pixels);
         pixels.alpha_is_share = true;
         if (quarters == nullptr) return;
+        pixels.quarter_samples = std::max(samples_per_axis * samples_per_axis / 4, 1);
         pixels.quarters.resize(quarters->colour.size_px());
         quarters->colour.download(GL_RGBA, GL_UNSIGNED_BYTE, pixels.quarters.size_bytes(),
                                   pixels.quarters.pixels().data());

@@ -187,6 +187,14 @@ bool read_quarters(Fields& fields) {
     return quarters == "surface";
 }
 
+int read_quarter_samples(Fields& fields) {
+    constexpr double kMost = 4096.0;
+    const double samples = fields.number_or("quarter_samples", 1.0);
+    if (samples >= 1.0 && samples <= kMost && samples == std::floor(samples)) return static_cast<int>(samples);
+    fields.fail("quarter_samples is not a whole number from 1 to 4096");
+    return 1;
+}
+
 LayerDescription read_layer(Fields fields, std::optional<Error>& error, std::vector<std::string>& warnings) {
     LayerDescription layer;
     layer.name = fields.text("name");
@@ -195,6 +203,7 @@ LayerDescription read_layer(Fields fields, std::optional<Error>& error, std::vec
     layer.depth_encoding = read_depth_encoding(fields);
     layer.alpha_is_share = read_alpha(fields);
     layer.has_quarters = read_quarters(fields);
+    layer.quarter_samples = read_quarter_samples(fields);
     layer.time_s = fields.number_or("time_s", 0.0);
     layer.pose_sampled_s = fields.number_or("pose_sampled_s", 0.0);
     if (std::abs(layer.pose_sampled_s) > 9e9) fields.fail("pose_sampled_s is beyond 9e9");
@@ -248,11 +257,14 @@ void append_layer(std::string& text, const Layer& layer) {
     append_numbers(text, &pose.position_m.x, 3);
     text += ", \"orientation_xyzw\": ";
     append_numbers(text, orientation_xyzw, 4);
+    const std::string quarter_samples =
+        layer.cpu().quarters.empty() ? std::string{}
+                                     : fmt::format("      \"quarter_samples\": {},\n", layer.cpu().quarter_samples);
     fmt::format_to(
         std::back_inserter(text),
-        "}},\n      \"depth_encoding\": \"reverse_z\",\n{}{}      \"time_s\": {},\n      \"pose_sampled_s\": {},\n",
+        "}},\n      \"depth_encoding\": \"reverse_z\",\n{}{}{}      \"time_s\": {},\n      \"pose_sampled_s\": {},\n",
         layer.cpu().alpha_is_share ? "      \"alpha\": \"surface_share\",\n" : "",
-        layer.cpu().quarters.empty() ? "" : "      \"quarters\": \"surface\",\n", layer.scene_time_s,
+        layer.cpu().quarters.empty() ? "" : "      \"quarters\": \"surface\",\n", quarter_samples, layer.scene_time_s,
         seconds_of(layer.pose_sampled));
     append_objects(text, layer.movers);
     text += "    }";

@@ -23,6 +23,7 @@ struct LayerDescription {
     Camera camera;
     bool alpha_is_share = false;  ///< CpuPixels::alpha_is_share
     bool has_quarters = false;    ///< CpuPixels::quarters lie in a file of their own
+    int quarter_samples = 1;
     DepthEncoding depth_encoding = DepthEncoding::kReverseZ;
     double time_s = 0.0;          ///< scene time of the movers
     double pose_sampled_s = 0.0;  ///< stamp of the pose sample, seconds since the clock's zero

@@ -101,6 +101,7 @@ Result<CpuPixels> load_pixels(const LayerDescription& description, const LayerFi
         return status.error();
     }
     pixels.quarters = std::move(*quarters);
+    pixels.quarter_samples = description.quarter_samples;
     return pixels;
 }
 

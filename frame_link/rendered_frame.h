@@ -39,6 +39,8 @@ struct CpuPixels {
     /// surface covers. A warp that reads between two pixels finds there what their means no longer tell, and at edges
     /// which part of a pixel is whose and how the rest of it looks.
     ColourImage quarters{};
+    /// Samples that each quarter is the mean of, at least 1. One alone is noisy.
+    int quarter_samples = 1;
 };
 
 /// Pixels in textures of a context that shares with the server's: SRGB8_ALPHA8, R32F and R16UI, row 0 on top.

@@ -107,6 +107,7 @@ TEST_F(FrameFolder, ReadsBackBitForBit) {
     with_shares->cpu().colour.at(1, 1).a = 64;
     with_shares->cpu().quarters = ColourImage{2 * with_shares->camera.size_px, {1, 2, 3, 255}};
     with_shares->cpu().quarters.at(3, 2) = {200, 100, 50, 255};
+    with_shares->cpu().quarter_samples = 4;
     frame.layers.push_back(with_shares);
     save(frame);
     const LoadedFrame again = loaded();
@@ -126,6 +127,7 @@ TEST_F(FrameFolder, ReadsBackBitForBit) {
         EXPECT_EQ(after.cpu().object_id, before.cpu().object_id);
         EXPECT_EQ(after.cpu().alpha_is_share, before.cpu().alpha_is_share);
         EXPECT_EQ(after.cpu().quarters, before.cpu().quarters);
+        EXPECT_EQ(after.cpu().quarter_samples, before.cpu().quarter_samples);
         EXPECT_TRUE(same_bits(after.cpu().depth, before.cpu().depth));
     }
 }

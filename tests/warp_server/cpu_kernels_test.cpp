@@ -137,12 +137,18 @@ TEST(SurfaceMethod, EveryInstructionSetReadsQuartersTheSame) {
             pixels.quarters.at(x, y).a = 130;
             pixels.quarters.at(x + 1, y).a = 0;
         }
-        const DisplayFrame best = warp_once("surface", layer, {target, movers});
-        for (const std::int64_t set : sets.all()) {
-            InstructionSets::use(set);
-            EXPECT_TRUE(same_pixels(warp_once("surface", layer, {target, movers}), best)) << hwy::TargetName(set);
+        DisplayFrame straight;
+        for (const int samples : {1, 4}) {
+            pixels.quarter_samples = samples;
+            const DisplayFrame best = warp_once("surface", layer, {target, movers});
+            for (const std::int64_t set : sets.all()) {
+                InstructionSets::use(set);
+                EXPECT_TRUE(same_pixels(warp_once("surface", layer, {target, movers}), best)) << hwy::TargetName(set);
+            }
+            hwy::SetSupportedTargetsForTest(0);
+            EXPECT_NE(best.colour, straight.colour) << samples;
+            straight = best;
         }
-        hwy::SetSupportedTargetsForTest(0);
     }
 }
 

@@ -74,7 +74,7 @@ TEST(SurfaceLattice, HoldsPixelsAtTheirCentresAndMeansOfTheirQuartersBetween) {
     fill(quarters);
     const LinearImage pixels{colour};
     const LinearImage fine{quarters};
-    const ColourLattice lattice{pixels, LinearImage{quarters}};
+    const ColourLattice lattice{pixels, LinearImage{quarters}, 1};
     ASSERT_EQ(lattice.size(), glm::ivec2(6, 4));
     for (int channel = 0; channel < 3; ++channel) {
         for (int y = 0; y < 4; ++y) {
@@ -100,7 +100,7 @@ TEST(SurfaceLattice, RepeatsItsOutermostNodesAroundIt) {
     ColourImage quarters{{6, 4}};
     for (std::size_t i = 0; i < quarters.pixels().size(); ++i)
         quarters.pixels()[i].g = static_cast<std::uint8_t>(9 * i);
-    const ColourLattice lattice{pixels, LinearImage{quarters}};
+    const ColourLattice lattice{pixels, LinearImage{quarters}, 1};
     for (int y = -1; y < 4 + 2; ++y) {
         for (int x = -1; x < 6 + 2; ++x) {
             const std::uint16_t* inside = lattice.node(std::clamp(x, 0, 5), std::clamp(y, 0, 3));
@@ -163,6 +163,69 @@ TEST(SurfaceLattice, FineWavesKeepMoreOfTheirHeightThanFromPixelsAlone) {
     EXPECT_LT(error_of(0.5), at_centres + 0.01);
     layer.cpu().quarters = {};
     EXPECT_GT(error_of(0.5), 2.0 * at_centres);
+}
+
+// The largest error of waves shown a part of a pixel further, against their mean over each pixel, which is linear.
+double worst_of_waves(const Layer& layer, double wave_px, double shift_px) {
+    const DisplayFrame frame = warp_once("surface", layer, {shifted(layer.camera, {shift_px, 0.0}), {}});
+    double worst = 0.0;
+    for (int x = 4; x < layer.camera.size_px.x - 5; ++x) {
+        const double k = 2.0 * 3.141592653589793 / wave_px;
+        const double mean = 0.5 + 0.4 * std::sin(k * (x + 0.5 + shift_px)) * std::sin(0.5 * k) / (0.5 * k);
+        worst = std::max(worst, std::abs(linear_of(frame.colour.at(x, 12)).g - mean));
+    }
+    return worst;
+}
+
+TEST(SurfaceLattice, QuartersOfSeveralSamplesAreReadAlongACurve) {
+    constexpr double kWavePx = 4.0;
+    Layer layer = indexed_layer(street_camera({60, 24}), 0.05F);
+    CpuPixels& pixels = layer.cpu();
+    // Means over quarters and pixels, as of many samples.
+    draw_waves(layer, kWavePx);
+    const double k = 2.0 * 3.141592653589793 / kWavePx;
+    const auto mean_level = [&](double centre_px, double width_px) {
+        const double level = 0.5 + 0.4 * std::sin(k * centre_px) * std::sin(0.5 * k * width_px) / (0.5 * k * width_px);
+        const std::uint8_t grey = srgb8_from_linear(static_cast<float>(level));
+        return Rgba8{grey, grey, grey, 255};
+    };
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 120; ++x) pixels.quarters.at(x, y) = mean_level(0.5 * x + 0.25, 0.5);
+    }
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 60; ++x) pixels.colour.at(x, y) = mean_level(x + 0.5, 1.0);
+    }
+    pixels.quarter_samples = 1;
+    const double straight = worst_of_waves(layer, kWavePx, 0.25);
+    pixels.quarter_samples = 4;
+    EXPECT_LT(worst_of_waves(layer, kWavePx, 0.25), 0.6 * straight);
+    // On the nodes both are exact, up to rounding to levels.
+    EXPECT_LT(worst_of_waves(layer, kWavePx, 0.5), 0.01);
+}
+
+TEST(SurfaceLattice, ACurveDoesNotLeaveTheNodesItLiesBetween) {
+    // White on the right of an edge between two pixels: nothing darker than black or lighter than white may ring.
+    const Camera source = street_camera({40, 24});
+    Layer layer = indexed_layer(source, 0.05F);
+    CpuPixels& pixels = layer.cpu();
+    constexpr Rgba8 kDark{60, 60, 60, 255};
+    constexpr Rgba8 kLight{200, 200, 200, 255};
+    pixels.quarters = ColourImage{2 * source.size_px};
+    pixels.quarter_samples = 4;
+    for (int y = 0; y < 48; ++y) {
+        for (int x = 0; x < 80; ++x) pixels.quarters.at(x, y) = x < 40 ? kDark : kLight;
+    }
+    for (int y = 0; y < 24; ++y) {
+        for (int x = 0; x < 40; ++x) pixels.colour.at(x, y) = x < 20 ? kDark : kLight;
+    }
+    for (const double shift_px : {0.1, 0.25, 0.6, 0.9}) {
+        const DisplayFrame frame = warp_once("surface", layer, {shifted(source, {shift_px, 0.0}), {}});
+        for (int x = 0; x < 39; ++x) {
+            EXPECT_GE(frame.colour.at(x, 12).g, kDark.g) << x << ", " << shift_px;
+            EXPECT_LE(frame.colour.at(x, 12).g, kLight.g) << x << ", " << shift_px;
+            EXPECT_GE(frame.colour.at(x, 12).g, frame.colour.at(std::max(x - 1, 0), 12).g) << x << ", " << shift_px;
+        }
+    }
 }
 
 TEST(SurfaceLattice, ASourceTwiceAsDenseIsReadByItsPixels) {

@@ -221,6 +221,7 @@ private:
 struct Colours {
     LinearImage linear;
     LinearImage quarters;
+    int quarter_samples = 1;
     std::vector<IdCount> id_counts;
 };
 
@@ -231,6 +232,7 @@ Colours colours_of(const CpuPixels& pixels, SurfaceUse use) {
     colours.linear = LinearImage{pixels.colour, pixels.alpha_is_share ? LinearAlpha::kept : LinearAlpha::none};
     const bool has_quarters = pixels.quarters.size_px() == kLatticeSteps * pixels.colour.size_px();
     if (has_quarters) colours.quarters = LinearImage{pixels.quarters};
+    colours.quarter_samples = pixels.quarter_samples;
     return colours;
 }
 
@@ -242,7 +244,7 @@ void make_lattices(const SurfaceLinks& links, Colours&& colours, PreparedSurface
             make_edge_lattices(parts, prepared);
             parts.join_for_lattice();
         }
-        prepared.lattice = ColourLattice{prepared.linear, std::move(colours.quarters)};
+        prepared.lattice = ColourLattice{prepared.linear, std::move(colours.quarters), colours.quarter_samples};
     }
     if (prepared.linear.has_alpha()) halve_lacks_of_thin_things(links, prepared.linear);
 }

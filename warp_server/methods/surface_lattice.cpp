@@ -13,7 +13,8 @@ LinearRow row_of(const LinearImage& image, int y) { return {image.row(y, 0), ima
 
 }  // namespace
 
-ColourLattice::ColourLattice(const LinearImage& linear, LinearImage quarters) : rows_{std::move(quarters)} {
+ColourLattice::ColourLattice(const LinearImage& linear, LinearImage quarters, int samples)
+    : rows_{std::move(quarters)}, is_smooth_{samples > 1} {
     const glm::ivec2 nodes = size();
     std::vector<std::uint16_t> row(static_cast<std::size_t>(kChannels * (nodes.x + kRim)));
     std::uint16_t* first = row.data() + kChannels;

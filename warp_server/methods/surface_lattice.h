@@ -23,13 +23,17 @@ inline constexpr int kLatticeSteps = 2;
 class ColourLattice {
 public:
     static constexpr int kChannels = 3;   ///< red, green and blue of linear light in 15 bits
-    static constexpr int kReadNodes = 4;  ///< of which a cubic read lies between the second and the third
+    static constexpr int kReadNodes = 4;  ///< per axis, of which a read lies between the second and the third
 
     ColourLattice() = default;
     /// @param linear    of w x h pixels
     /// @param quarters  their quarters (CpuPixels), 2w x 2h, whose memory this takes
-    ColourLattice(const LinearImage& linear, LinearImage quarters);
+    /// @param samples   that each quarter is the mean of
+    ColourLattice(const LinearImage& linear, LinearImage quarters, int samples);
 
+    /// May a read between the nodes follow a curve? Quarters of one sample have noise that it would follow: in the city
+    /// PSNR was 0.2 dB less.
+    [[nodiscard]] bool is_smooth() const { return is_smooth_; }
     /// In nodes, two for each pixel and axis; the first one lies at the centre of the first pixel.
     [[nodiscard]] glm::ivec2 size() const { return rows_.size_px(); }
     [[nodiscard]] bool empty() const { return size().x == 0; }
@@ -47,6 +51,7 @@ private:
     static_assert(kRim <= LinearImage::kSpareRows && kRim < LinearImage::kSpareColumns);
 
     LinearImage rows_;  // row y holds the nodes of row y - 1
+    bool is_smooth_ = false;
 };
 
 }  // namespace lw

@@ -19,11 +19,63 @@
 HWY_BEFORE_NAMESPACE();
 namespace lw::HWY_NAMESPACE {
 
-/// Reads between nodes by a cubic (Catmull and Rom) down and then across, which never leaves the two nodes it lies
-/// between: it follows a curve where a straight line would cut it off, and adds no ripples beside an edge. In exact
-/// pixels of the source, fraction 0, it is the node, bit for bit.
-///
-/// Rows pixel by pixel, since four nodes of one are a vector wherever they lie; columns of many pixels at once.
+/// Two ways to mix neighbours along a line, in 15 bits. At fraction 0 both are the node before, bit for bit.
+
+/// Of b and c: b + f (c - b).
+struct StraightMix {
+    static constexpr std::size_t kNodes = 2;
+    static constexpr std::size_t kWeights = 1;
+
+    /// Calls `keep` with each weight.
+    template <class Keep>
+    static HWY_INLINE void weigh(hn::VFromD<DI> fraction15, const Keep& keep) {
+        keep(0, fraction15);
+    }
+
+    template <class V>
+    [[nodiscard]] static HWY_INLINE V mixed(const V* nodes, const V* weights) {
+        return hn::Add(nodes[0], hn::MulFixedPoint15(hn::Sub(nodes[1], nodes[0]), weights[0]));
+    }
+};
+
+/// Of a, b, c and d the cubic of Catmull and Rom between b and c, which never leaves the two: it follows a curve where
+/// a straight line would cut it off, and adds no ripples beside an edge. Without that limit FLIP in the city was 3 %
+/// more.
+///   b + step (c - b) + before (b - a) - after (d - c),
+/// with step = f - before + after, before = f (1 - f)^2 / 2, and after = f^2 (1 - f) / 2, cut off so that step is
+/// below 1.
+struct CubicMix {
+    static constexpr std::size_t kNodes = 4;
+    static constexpr std::size_t kWeights = 3;
+
+    template <class Keep>
+    static HWY_INLINE void weigh(hn::VFromD<DI> fraction15, const Keep& keep) {
+        const VF fraction = hn::Mul(hn::ConvertTo(DF{}, fraction15), hn::Set(DF{}, 1.0F / 32768.0F));
+        const VF left = hn::Sub(hn::Set(DF{}, 1.0F), fraction);
+        const VF half = hn::Mul(hn::Mul(fraction, left), hn::Set(DF{}, 16384.0F));
+        const auto before = truncated(hn::Mul(half, left));
+        const auto after = truncated(hn::Mul(half, fraction));
+        keep(0, hn::Add(hn::Sub(fraction15, before), after));
+        keep(1, before);
+        keep(2, after);
+    }
+
+    template <class V>
+    [[nodiscard]] static HWY_INLINE V mixed(const V* nodes, const V* weights) {
+        const V a = nodes[0];
+        const V b = nodes[1];
+        const V c = nodes[2];
+        const V d = nodes[3];
+        const V step = hn::MulFixedPoint15(hn::Sub(c, b), weights[0]);
+        const V bend =
+            hn::Sub(hn::MulFixedPoint15(hn::Sub(b, a), weights[1]), hn::MulFixedPoint15(hn::Sub(d, c), weights[2]));
+        const V value = hn::SaturatedAdd(b, hn::SaturatedAdd(step, bend));
+        return hn::Min(hn::Max(value, hn::Min(b, c)), hn::Max(b, c));
+    }
+};
+
+/// Reads between nodes: down, then across. Down pixel by pixel, since a few nodes of one row are a vector wherever they
+/// lie; across many pixels at once.
 class LatticeReader {
 public:
     /// `lattice` outlives this.
@@ -31,12 +83,11 @@ public:
 
     /// Asks for what a read at x, y touches, in pixels from the centre of the first one; any values.
     HWY_INLINE void prefetch(float x_px, float y_px) const {
-        const bool inside = x_px >= 0.0F && y_px >= 0.0F &&
-                            x_px * kLatticeSteps < static_cast<float>(lattice_->size().x) &&
-                            y_px * kLatticeSteps < static_cast<float>(lattice_->size().y);
-        if (!inside) return;
-        const std::uint16_t* nodes =
-            lattice_->before(static_cast<int>(x_px * kLatticeSteps), static_cast<int>(y_px * kLatticeSteps));
+        const glm::ivec2 size = lattice_->size();
+        const float x = x_px * kLatticeSteps;
+        const float y = y_px * kLatticeSteps;
+        if (!(x >= 0.0F && y >= 0.0F && x < static_cast<float>(size.x) && y < static_cast<float>(size.y))) return;
+        const std::uint16_t* nodes = lattice_->before(static_cast<int>(x), static_cast<int>(y));
         for (std::ptrdiff_t line = 0; line < ColourLattice::kReadNodes; ++line) {
             __builtin_prefetch(nodes + line * lattice_->row_stride());
         }
@@ -56,23 +107,48 @@ public:
     }
 
     /// Colours at the taps, nodes and fractions, of the lanes whose bits are in `wanted`, and anything at the others.
-    [[nodiscard]] HWY_NOINLINE LinearColours read(const Taps& taps, std::uint32_t wanted) const {
+    [[nodiscard]] HWY_INLINE LinearColours read(const Taps& taps, std::uint32_t wanted) const {
+        return lattice_->is_smooth() ? read_by<CubicMix>(taps, wanted) : read_by<StraightMix>(taps, wanted);
+    }
+
+private:
+    static constexpr std::ptrdiff_t kChannels = ColourLattice::kChannels;
+    static constexpr std::size_t kPixel = 4;  // values: red, green, blue, and one that nobody asks for
+    // Values of a pixel's columns.
+    template <class Mix>
+    static constexpr std::size_t kColumns = kPixel* Mix::kNodes;
+
+    // Of every lane, each twice side by side.
+    template <class Mix>
+    struct LaneWeights {
+        explicit LaneWeights(hn::VFromD<DI> fraction15) {
+            Mix::weigh(fraction15, [this](std::size_t index, hn::VFromD<DI> weight) LW_INLINE_LAMBDA {
+                hn::Store(hn::BitCast(DU{}, hn::Or(weight, hn::ShiftLeft<16>(weight))), DU{}, pairs[index]);
+            });
+        }
+        HWY_ALIGN std::uint32_t pairs[Mix::kWeights][kMaxLanes];
+    };
+
+    template <class Mix>
+    [[nodiscard]] HWY_NOINLINE LinearColours read_by(const Taps& taps, std::uint32_t wanted) const {
         HWY_ALIGN std::int32_t first[kMaxLanes];
         const auto stride = hn::Set(DI{}, static_cast<std::int32_t>(lattice_->row_stride()));
         const auto column = hn::Mul(taps.x, hn::Set(DI{}, ColourLattice::kChannels));
         hn::Store(hn::Add(hn::Mul(taps.y, stride), column), DI{}, first);
-        const LaneWeights down{taps.fy};
-        HWY_ALIGN std::int16_t columns[kMaxLanes * kColumns];
+        constexpr int kBefore = (ColourLattice::kReadNodes - static_cast<int>(Mix::kNodes)) / 2;
+        const std::uint16_t* nodes = lattice_->before(kBefore, kBefore);
+        const LaneWeights<Mix> down{taps.fy};
+        HWY_ALIGN std::int16_t columns[kMaxLanes * kColumns<Mix>];
         for (std::uint32_t others = ~wanted & ((1U << hn::Lanes(DU{})) - 1U); others != 0; others &= others - 1) {
-            std::fill_n(columns + kColumns * static_cast<std::size_t>(__builtin_ctz(others)), kColumns,
-                        std::int16_t{0});
+            const auto lane = static_cast<std::size_t>(__builtin_ctz(others));
+            std::fill_n(columns + kColumns<Mix> * lane, kColumns<Mix>, std::int16_t{0});
         }
         for (; wanted != 0; wanted &= wanted - 1) {
             const auto lane = static_cast<std::size_t>(__builtin_ctz(wanted));
-            mix_rows(lattice_->before(0, 0) + first[lane], down, lane, columns + kColumns * lane);
+            mix_rows(nodes + first[lane], down, lane, columns + kColumns<Mix> * lane);
         }
         HWY_ALIGN std::uint16_t colours[kMaxLanes * kPixel];
-        mix_columns(columns, LaneWeights{taps.fx}, colours);
+        mix_columns(columns, LaneWeights<Mix>{taps.fx}, colours);
         const hn::Rebind<std::uint16_t, DU> d16;
         hn::VFromD<decltype(d16)> red;
         hn::VFromD<decltype(d16)> green;
@@ -82,138 +158,102 @@ public:
         return {hn::PromoteTo(DU{}, red), hn::PromoteTo(DU{}, green), hn::PromoteTo(DU{}, blue)};
     }
 
-private:
-    static constexpr std::ptrdiff_t kChannels = ColourLattice::kChannels;
-    static constexpr std::size_t kPixel = 4;  // values: red, green, blue, and one that nobody asks for
-    static constexpr std::size_t kColumns = kPixel * ColourLattice::kReadNodes;
-
-    // Of every lane, in 15 bits and twice side by side: between b and c of four values a, b, c, d lies
-    //   b + step (c - b) + before (b - a) - after (d - c),
-    // where of the fraction f step = f - before + after, before = f (1 - f)^2 / 2, and after = f^2 (1 - f) / 2. Cut
-    // off, so that step stays below 1.
-    struct LaneWeights {
-        explicit LaneWeights(hn::VFromD<DI> fraction15) {
-            const VF fraction = hn::Mul(hn::ConvertTo(DF{}, fraction15), hn::Set(DF{}, 1.0F / 32768.0F));
-            const VF left = hn::Sub(hn::Set(DF{}, 1.0F), fraction);
-            const VF half = hn::Mul(hn::Mul(fraction, left), hn::Set(DF{}, 16384.0F));
-            const auto before15 = truncated(hn::Mul(half, left));
-            const auto after15 = truncated(hn::Mul(half, fraction));
-            keep(before15, before);
-            keep(after15, after);
-            keep(hn::Add(hn::Sub(fraction15, before15), after15), step);
-        }
-
-        HWY_ALIGN std::uint32_t step[kMaxLanes];
-        HWY_ALIGN std::uint32_t before[kMaxLanes];
-        HWY_ALIGN std::uint32_t after[kMaxLanes];
-
-    private:
-        static HWY_INLINE void keep(hn::VFromD<DI> weight, std::uint32_t* to) {
-            hn::Store(hn::BitCast(DU{}, hn::Or(weight, hn::ShiftLeft<16>(weight))), DU{}, to);
-        }
-    };
-
-    template <class V>
-    struct Weights {
-        V step;
-        V before;
-        V after;
-    };
-
-    template <class V>
-    [[nodiscard]] static HWY_INLINE V between(V a, V b, V c, V d, const Weights<V>& weights) {
-        const V step = hn::MulFixedPoint15(hn::Sub(c, b), weights.step);
-        const V bend = hn::Sub(hn::MulFixedPoint15(hn::Sub(b, a), weights.before),
-                               hn::MulFixedPoint15(hn::Sub(d, c), weights.after));
-        const V value = hn::SaturatedAdd(b, hn::SaturatedAdd(step, bend));
-        return hn::Min(hn::Max(value, hn::Min(b, c)), hn::Max(b, c));
-    }
-
 #if HWY_TARGET == HWY_SCALAR
     using One = hn::CappedTag<std::int16_t, 1>;
 
-    [[nodiscard]] static Weights<hn::Vec<One>> weights_at(const LaneWeights& all, std::size_t lane) {
-        const auto one = [](std::uint32_t pair) { return hn::Set(One{}, static_cast<std::int16_t>(pair & 0x7FFFU)); };
-        return {one(all.step[lane]), one(all.before[lane]), one(all.after[lane])};
+    // `value(node)`, weighed with the weights of a lane.
+    template <class Mix, class Value>
+    [[nodiscard]] static std::int16_t mixed(const Value& value, const LaneWeights<Mix>& all, std::size_t lane) {
+        hn::Vec<One> nodes[Mix::kNodes];
+        hn::Vec<One> weights[Mix::kWeights];
+        for (std::size_t i = 0; i < Mix::kNodes; ++i) nodes[i] = hn::Set(One{}, value(i));
+        for (std::size_t i = 0; i < Mix::kWeights; ++i) {
+            weights[i] = hn::Set(One{}, static_cast<std::int16_t>(all.pairs[i][lane] & 0x7FFFU));
+        }
+        return hn::GetLane(Mix::mixed(nodes, weights));
     }
 
-    void mix_rows(const std::uint16_t* nodes, const LaneWeights& down, std::size_t lane, std::int16_t* columns) const {
-        const auto weights = weights_at(down, lane);
-        for (std::ptrdiff_t i = 0; i < kChannels * ColourLattice::kReadNodes; ++i) {
-            const auto value = [&](std::ptrdiff_t row) {
-                return hn::Set(One{}, static_cast<std::int16_t>(nodes[row * lattice_->row_stride() + i]));
+    template <class Mix>
+    void mix_rows(const std::uint16_t* nodes, const LaneWeights<Mix>& down, std::size_t lane,
+                  std::int16_t* columns) const {
+        for (std::size_t i = 0; i < kColumns<Mix>; ++i) {
+            const std::uint16_t* first = nodes + kChannels * static_cast<std::ptrdiff_t>(i / kPixel) + i % kPixel;
+            const auto value = [&](std::size_t row) {
+                return static_cast<std::int16_t>(first[static_cast<std::ptrdiff_t>(row) * lattice_->row_stride()]);
             };
-            const std::ptrdiff_t column = i / kChannels;
-            hn::Store(between(value(0), value(1), value(2), value(3), weights), One{},
-                      columns + column * static_cast<std::ptrdiff_t>(kPixel) + i % kChannels);
+            columns[i] = mixed(value, down, lane);
         }
     }
 
-    static void mix_columns(const std::int16_t* columns, const LaneWeights& across, std::uint16_t* colours) {
-        const auto weights = weights_at(across, 0);
+    template <class Mix>
+    static void mix_columns(const std::int16_t* columns, const LaneWeights<Mix>& across, std::uint16_t* colours) {
         for (std::size_t i = 0; i < kPixel; ++i) {
-            const auto value = [&](std::size_t column) { return hn::Load(One{}, columns + column * kPixel + i); };
-            const auto mixed = between(value(0), value(1), value(2), value(3), weights);
-            colours[i] = static_cast<std::uint16_t>(hn::GetLane(mixed));
+            const auto value = [&](std::size_t column) { return columns[kPixel * column + i]; };
+            colours[i] = static_cast<std::uint16_t>(mixed(value, across, 0));
         }
     }
 #else
-    // Of the four nodes in four rows the four columns, kPixel values each.
-    HWY_INLINE void mix_rows(const std::uint16_t* nodes, const LaneWeights& down, std::size_t lane,
+    // Of as many nodes in as many rows the columns.
+    template <class Mix>
+    HWY_INLINE void mix_rows(const std::uint16_t* nodes, const LaneWeights<Mix>& down, std::size_t lane,
                              std::int16_t* columns) const {
-        const hn::CappedTag<std::int16_t, kColumns> d;
-        const hn::RepartitionToWide<hn::RebindToUnsigned<decltype(d)>> pairs;
-        const auto all = [&](std::uint32_t pair) LW_INLINE_LAMBDA { return hn::BitCast(d, hn::Set(pairs, pair)); };
-        const Weights<hn::Vec<decltype(d)>> weights{all(down.step[lane]), all(down.before[lane]),
-                                                    all(down.after[lane])};
-        const std::ptrdiff_t stride = lattice_->row_stride();
-        for (std::size_t column = 0; column < ColourLattice::kReadNodes; column += hn::Lanes(d) / kPixel) {
-            const auto* first = reinterpret_cast<const std::int16_t*>(nodes) + kChannels * column;
-            const auto row = [&](std::ptrdiff_t index)
-                                 LW_INLINE_LAMBDA { return hn::LoadU(d, first + index * stride); };
-            const auto mixed = between(row(0), row(1), row(2), row(3), weights);
-            hn::Store(spread(d, mixed), d, columns + kPixel * column);
+        const hn::CappedTag<std::int16_t, kColumns<Mix> > d;
+        const hn::RepartitionToWide<hn::RebindToUnsigned<decltype(d)> > pairs;
+        using V = hn::Vec<decltype(d)>;
+        V weights[Mix::kWeights];
+        for (std::size_t i = 0; i < Mix::kWeights; ++i) {
+            weights[i] = hn::BitCast(d, hn::Set(pairs, down.pairs[i][lane]));
+        }
+        for (std::size_t column = 0; column < Mix::kNodes; column += hn::Lanes(d) / kPixel) {
+            const auto* row = reinterpret_cast<const std::int16_t*>(nodes) + kChannels * column;
+            V rows[Mix::kNodes];
+            for (std::size_t i = 0; i < Mix::kNodes; ++i, row += lattice_->row_stride()) rows[i] = hn::LoadU(d, row);
+            hn::Store(spread(d, Mix::mixed(rows, weights)), d, columns + kPixel * column);
         }
     }
 
     // Three values of each node become four.
     template <class D>
     [[nodiscard]] static HWY_INLINE hn::Vec<D> spread(D d, hn::Vec<D> nodes) {
-        constexpr auto kUnused = std::int8_t{-1};
-        HWY_ALIGN static constexpr std::int8_t kBytes[16] = {0, 1, 2, 3, 4,  5,  kUnused, kUnused,
-                                                             6, 7, 8, 9, 10, 11, kUnused, kUnused};
-        const hn::Repartition<std::int8_t, D> d8;
+        constexpr auto kNone = std::int8_t{-1};
+        HWY_ALIGN static constexpr std::int8_t kBytes[16] = {0, 1, 2, 3, 4,  5,  kNone, kNone,
+                                                             6, 7, 8, 9, 10, 11, kNone, kNone};
+        const hn::Repartition<std::int8_t, D> bytes;
+        auto halves = nodes;
         if constexpr (hn::MaxLanes(d) == 16) {
             // Two nodes, which are three pairs, into each half.
             HWY_ALIGN static constexpr std::int32_t kPairs[8] = {0, 1, 2, 0, 3, 4, 5, 0};
             const hn::RepartitionToWide<D> pairs;
-            const auto halves = hn::TableLookupLanes(hn::BitCast(pairs, nodes), hn::SetTableIndices(pairs, kPairs));
-            return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(d8, halves), hn::LoadDup128(d8, kBytes)));
-        } else {
-            return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(d8, nodes), hn::LoadDup128(d8, kBytes)));
+            halves =
+                hn::BitCast(d, hn::TableLookupLanes(hn::BitCast(pairs, nodes), hn::SetTableIndices(pairs, kPairs)));
         }
+        return hn::BitCast(d, hn::TableLookupBytes(hn::BitCast(bytes, halves), hn::LoadDup128(bytes, kBytes)));
     }
 
-    // Many pixels at once: one 64-bit lane is one node.
-    static HWY_INLINE void mix_columns(const std::int16_t* columns, const LaneWeights& across, std::uint16_t* colours) {
+    // One 64-bit lane is one node.
+    template <class Mix>
+    static HWY_INLINE void mix_columns(const std::int16_t* columns, const LaneWeights<Mix>& across,
+                                       std::uint16_t* colours) {
         const hn::Repartition<std::uint64_t, DU> nodes;
         const hn::Repartition<std::int16_t, DU> d;
         const hn::Rebind<std::uint32_t, decltype(nodes)> half;
         using V = hn::Vec<decltype(d)>;
         for (std::size_t lane = 0; lane < hn::Lanes(DU{}); lane += hn::Lanes(nodes)) {
-            const auto each = [&](const std::uint32_t* pairs) LW_INLINE_LAMBDA {
-                const auto low = hn::PromoteTo(nodes, hn::Load(half, pairs + lane));
-                return hn::BitCast(d, hn::Or(low, hn::ShiftLeft<32>(low)));
-            };
-            hn::Vec<decltype(nodes)> a;
-            hn::Vec<decltype(nodes)> b;
-            hn::Vec<decltype(nodes)> c;
-            hn::Vec<decltype(nodes)> e;
-            hn::LoadInterleaved4(nodes, reinterpret_cast<const std::uint64_t*>(columns + kColumns * lane), a, b, c, e);
-            const auto values = [&](hn::Vec<decltype(nodes)> node) LW_INLINE_LAMBDA { return hn::BitCast(d, node); };
-            const Weights<V> weights{each(across.step), each(across.before), each(across.after)};
-            const V mixed = between(values(a), values(b), values(c), values(e), weights);
-            hn::Store(mixed, d, reinterpret_cast<std::int16_t*>(colours) + kPixel * lane);
+            V weights[Mix::kWeights];
+            for (std::size_t i = 0; i < Mix::kWeights; ++i) {
+                const auto pair = hn::PromoteTo(nodes, hn::Load(half, across.pairs[i] + lane));
+                weights[i] = hn::BitCast(d, hn::Or(pair, hn::ShiftLeft<32>(pair)));
+            }
+            const auto* from = reinterpret_cast<const std::uint64_t*>(columns + kColumns<Mix> * lane);
+            hn::Vec<decltype(nodes)> column[Mix::kNodes];
+            if constexpr (Mix::kNodes == 2) {
+                hn::LoadInterleaved2(nodes, from, column[0], column[1]);
+            } else {
+                hn::LoadInterleaved4(nodes, from, column[0], column[1], column[2], column[3]);
+            }
+            V values[Mix::kNodes];
+            for (std::size_t i = 0; i < Mix::kNodes; ++i) values[i] = hn::BitCast(d, column[i]);
+            hn::Store(Mix::mixed(values, weights), d, reinterpret_cast<std::int16_t*>(colours) + kPixel * lane);
         }
     }
 #endif

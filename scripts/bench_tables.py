@@ -87,6 +87,27 @@ def size_table(points, sizes=(512, 1024, 2048)):
     return lines
 
 
+def fresh_table(points, entries):
+    """`surface` beside pictures drawn with no latency at all."""
+    fresh = {entry["samples"]: core_mean(entry) for entry in entries if entry["size_px"][0] == 512}
+    if 1 not in fresh:
+        return []
+    flips = {}
+    for point in points:
+        size, age, samples, density = conditions(point)
+        if (size, age, density) == (512, 100, 1) and point["settings"]["fill"] == BASE_FILL:
+            flips[point["method"], samples] = core_mean(point)
+    lines = ["", "`surface`, frames 100 ms old, beside a picture drawn with no latency at all (the same three pairs):", ""]
+    lines += ["| source | no latency | `surface` | of one sample with no latency | latency's, of `rotation`'s |", "|---" * 5 + "|"]
+    for samples, zero in sorted(fresh.items()):
+        surface, rotation = flips.get(("surface", samples)), flips.get(("rotation", samples))
+        if surface is None or rotation is None:
+            continue
+        share = (surface - zero) / (rotation - zero)
+        lines.append(f"| {samples}x{samples} | {zero:.4f} | {surface:.4f} | {surface / fresh[1]:.2f} | {share:.2f} |")
+    return lines
+
+
 def text_of(report):
     machine, points = report["machine"], report["points"]
     measured = sum(1 for point in points if point["warp_ms"])
@@ -100,12 +121,7 @@ def text_of(report):
     qualities = ["1x1, density 1", "1x1, density 2", "2x2, density 1", "2x2, density 2", "4x4, density 1"]
     lines += ["", "Mean FLIP at 512x512 against the source, frames 100 ms old (three pairs):", ""]
     lines += curve_table(points, "method", qualities, quality_key)
-    fresh = {entry["samples"]: entry for entry in report.get("fresh", []) if entry["size_px"][0] == 512}
-    if fresh:
-        zero = ", ".join(
-            f"{sum(p['flip'] for p in entry['pairs'][:3]) / 3:.4f} with {n}x{n} samples" for n, entry in sorted(fresh.items())
-        )
-        lines += ["", f"A picture drawn with no latency at all: {zero}."]
+    lines += fresh_table(points, report.get("fresh", []))
     lines += ["", "Run time in ms (and over a memcpy of the source) against size, frames 100 ms old:", ""]
     lines += size_table(points)
     return "\n".join(lines) + "\n"
